@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "backends/null/null_backend.hpp"
+
+#include "backends/pass_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace shadowmath::backend {
+namespace {
+
+std::uint8_t srgb_from_linear(float linear) {
+    float const x = std::clamp(linear, 0.0f, 1.0f);
+    float const encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+    return static_cast<std::uint8_t>(std::lround(255.0f * encoded));
+}
+
+}  // namespace
+
+bool NullBackend::accept(std::string const& fault) {
+    if (!fault.empty()) messages_.push_back(fault);
+    return fault.empty();
+}
+
+void NullBackend::upload(Scene const& scene) {
+    calls_.emplace_back(UploadCall{scene.name, scene.objects.size()});
+    object_count_ = accept(fault_of(scene)) ? scene.objects.size() : 0;
+}
+
+double NullBackend::draw_depth(DepthPass const& pass) {
+    DrawDepthCall call{pass.map_size, pass.depth_clamp, {}};
+    for (DepthLayer const& layer : pass.layers)
+        call.layers.push_back({layer.clip_from_world, {layer.objects.begin(), layer.objects.end()}});
+    calls_.emplace_back(std::move(call));
+    bool const accepted = accept(fault_of(pass, object_count_));
+    map_size_ = accepted ? pass.map_size : 0;
+    layers_ = accepted ? static_cast<int>(pass.layers.size()) : 0;
+    return 0.0;
+}
+
+double NullBackend::draw_scene(ScenePass const& pass) {
+    calls_.emplace_back(DrawSceneCall{pass});
+    extent_ = accept(fault_of(pass, layers_)) ? pass.extent : Extent{};
+    sky_ = pass.frame.sky;
+    return 0.0;
+}
+
+Image<float> NullBackend::read_depth(int layer) {
+    calls_.emplace_back(ReadDepthCall{layer});
+    bool const drawn = layer >= 0 && layer < layers_;
+    accept(drawn ? "" : "read_depth: layer " + std::to_string(layer) + " of " + std::to_string(layers_));
+    return Image<float>(Extent{map_size_, map_size_}, 1.0f);
+}
+
+Frame NullBackend::read_frame() {
+    calls_.emplace_back(ReadFrameCall{});
+    Rgba8 const sky{srgb_from_linear(sky_.r), srgb_from_linear(sky_.g), srgb_from_linear(sky_.b), 255};
+    return {Image<Rgba8>(extent_, sky), Image<Texel4>(extent_, {0.0f, 0.0f, 0.0f, -2.0f}),
+            Image<Texel4>(extent_, {0.0f, 0.0f, 0.0f, 1.0f})};
+}
+
+std::vector<std::string> NullBackend::take_messages() { return std::exchange(messages_, {}); }
+
+}  // namespace shadowmath::backend

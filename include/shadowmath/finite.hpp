@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// Is it a number, and how long is it: the two questions asked at the door of every public function.
+//
+// NOTE: under -ffast-math compilers assume that NaN and infinity do not exist and fold std::isnan, x != x and even bit
+// tests of computed values to a constant. What survives is a look at the bits in the memory of the caller's inputs. So
+// the test takes a pointer, and is called on inputs before any arithmetic.
+#pragma once
+
+#include <shadowmath/config.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace shadowmath {
+inline namespace v0 {
+
+// True when none of the `count` values at `values` is NaN or infinite.
+[[nodiscard]] inline bool all_finite(float const* values, int count) noexcept {
+    for (int i = 0; i < count; ++i) {
+        std::uint32_t bits;
+        std::memcpy(&bits, values + i, sizeof bits);
+        if ((bits & 0x7f800000u) == 0x7f800000u) return false;
+    }
+    return true;
+}
+
+[[nodiscard]] inline bool all_finite(double const* values, int count) noexcept {
+    constexpr std::uint64_t exponent = 0x7ff0000000000000u;
+    for (int i = 0; i < count; ++i) {
+        std::uint64_t bits;
+        std::memcpy(&bits, values + i, sizeof bits);
+        if ((bits & exponent) == exponent) return false;
+    }
+    return true;
+}
+
+// For the high-precision twin of tests, never built with -ffast-math: formats of long double differ between platforms.
+[[nodiscard]] inline bool all_finite(long double const* values, int count) noexcept {
+    for (int i = 0; i < count; ++i)
+        if (!std::isfinite(values[i])) return false;
+    return true;
+}
+
+// True for +infinity alone: a camera without a far plane.
+template <class T>
+[[nodiscard]] inline bool is_positive_infinity(T const* value) noexcept {
+    T const infinity = std::numeric_limits<T>::infinity();
+    // An x87 long double carries padding behind its ten bytes; the other types none.
+    return std::memcmp(value, &infinity, sizeof(T) > 8 ? 10 : sizeof(T)) == 0;
+}
+
+template <class T>
+[[nodiscard]] inline bool all_finite(Vec2<T> const& v) noexcept {
+    return all_finite(&v.x, 2);
+}
+template <class T>
+[[nodiscard]] inline bool all_finite(Vec3<T> const& v) noexcept {
+    return all_finite(&v.x, 3);
+}
+template <class T>
+[[nodiscard]] inline bool all_finite(Vec4<T> const& v) noexcept {
+    return all_finite(&v.x, 4);
+}
+template <class T>
+[[nodiscard]] inline bool all_finite(Mat4<T> const& m) noexcept {
+    return all_finite(m[0]) && all_finite(m[1]) && all_finite(m[2]) && all_finite(m[3]);
+}
+
+template <class T>
+struct Normalized {
+    Vec3<T> direction{T(0)};  // unit, or zero when `ok` is false
+    T length = T(0);          // of the input; may overflow to infinity for components near the largest number
+    bool ok = false;
+};
+
+// Unit to 2 ulp for every finite vector but the zero vector: nothing overflows, and a length of 1e-30 in float is as
+// good as one of 1. Dividing by the largest component first is what makes it so.
+template <class T>
+[[nodiscard]] inline Normalized<T> safe_normalize(Vec3<T> const& v) noexcept {
+    Vec3<T> const magnitude(std::abs(v.x), std::abs(v.y), std::abs(v.z));
+    T largest = magnitude.x > magnitude.y ? magnitude.x : magnitude.y;
+    largest = largest > magnitude.z ? largest : magnitude.z;
+    if (!(largest > T(0))) return {};
+    // Two steps: the reciprocal of a denormal number overflows, the quotient does not.
+    Vec3<T> const scaled(v.x / largest, v.y / largest, v.z / largest);
+    T const length = std::sqrt(glm::dot(scaled, scaled));
+    return {scaled / length, length * largest, true};
+}
+
+}  // namespace v0
+}  // namespace shadowmath
