@@ -91,7 +91,8 @@ Ring fluted(int flutes, int points_per_flute, double depth) {
     return ring;
 }
 
-void MeshBuilder::triangle(std::array<glm::dvec3, 3> const& corners, std::array<glm::dvec3, 3> const& normals) {
+void MeshBuilder::coloured_triangle(std::array<glm::dvec3, 3> const& corners, std::array<glm::dvec3, 3> const& normals,
+                                    std::array<glm::dvec3, 3> const& colours) {
     std::array<glm::vec3, 3> p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = glm::vec3(frame.point(corners[i]));
     // NOTE: judged after rounding to float, where slivers of the double world may have collapsed.
@@ -101,9 +102,7 @@ void MeshBuilder::triangle(std::array<glm::dvec3, 3> const& corners, std::array<
         backend::Vertex v{};
         v.position = p[i];
         v.normal = glm::vec3(unit_or(frame.direction(normals[i]), glm::normalize(area)));
-        v.albedo[0] = to_byte(colour.x);
-        v.albedo[1] = to_byte(colour.y);
-        v.albedo[2] = to_byte(colour.z);
+        for (int k = 0; k < 3; ++k) v.albedo[k] = to_byte(colours[i][k]);
         v.albedo[3] = 255;
         scene_.indices.push_back(static_cast<std::uint32_t>(scene_.vertices.size()));
         scene_.vertices.push_back(v);

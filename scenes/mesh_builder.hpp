@@ -72,7 +72,11 @@ public:
     glm::dvec3 colour{0.5};
 
     void triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
-    void triangle(std::array<glm::dvec3, 3> const& corners, std::array<glm::dvec3, 3> const& normals);
+    void triangle(std::array<glm::dvec3, 3> const& corners, std::array<glm::dvec3, 3> const& normals) {
+        coloured_triangle(corners, normals, {colour, colour, colour});
+    }
+    void coloured_triangle(std::array<glm::dvec3, 3> const& corners, std::array<glm::dvec3, 3> const& normals,
+                           std::array<glm::dvec3, 3> const& colours);
     void quad(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
 
     void box(glm::dvec3 lo, glm::dvec3 hi);

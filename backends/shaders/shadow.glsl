@@ -57,12 +57,11 @@ bool is_lit_by_texel(int map, ivec2 texel, float depth) {
     return !(clamp(depth, 0.0, 1.0) > texelFetch(maps, ivec3(texel, map), 0).r);
 }
 
-// Weights of taps -radius to radius along one axis: a box 2 * radius texels wide, centred on the point.
-// Continuous everywhere, since a tap enters and leaves with weight 0.
-float tap_weight(int tap, int radius, float fraction) {
+// Texels that a box 2 * radius texels wide, centred on the point, covers of one tap's texel along one axis.
+// The filter is continuous everywhere: a tap enters and leaves with nothing covered.
+float covered_texels(int tap, int radius, float fraction) {
     if (radius == 0) return 1.0;
-    float covered = tap == -radius ? 1.0 - fraction : tap == radius ? fraction : 1.0;
-    return covered / float(2 * radius);
+    return tap == -radius ? 1.0 - fraction : tap == radius ? fraction : 1.0;
 }
 
 float map_visibility(int map, vec3 point, vec3 normal) {
@@ -74,16 +73,18 @@ float map_visibility(int map, vec3 point, vec3 normal) {
     float depth = p.ndc.z - depth_bias(map, p, slope);
     vec2 home = floor(p.texel);
     vec2 fraction = p.texel - home;
-    float visibility = 0.0;
+    float lit = 0.0;
+    float dark = 0.0;
     for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
             vec2 texel = home + vec2(x, y);
             float rise = frame.tap_plane == 1 ? dot(slope, texel + 0.5 - p.texel) : 0.0;
-            float weight = tap_weight(x, radius, fraction.x) * tap_weight(y, radius, fraction.y);
-            if (is_lit_by_texel(map, ivec2(texel), depth + rise)) visibility += weight;
+            float weight = covered_texels(x, radius, fraction.x) * covered_texels(y, radius, fraction.y);
+            if (is_lit_by_texel(map, ivec2(texel), depth + rise)) lit += weight;
+            else dark += weight;
         }
     }
-    return min(visibility, 1.0);
+    return dark == 0.0 ? 1.0 : lit / (lit + dark);  // all lit and all dark are exact, however the weights round
 }
 
 // The first map that reaches past the point, blended into the next one near its end; the last one blends into light.

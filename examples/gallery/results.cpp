@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "examples/gallery/results.hpp"
+
+#include "examples/gallery/pictures.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <thread>
+
+namespace shadowmath::gallery {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(Record const& r) {
+    return {{"scene", r.scene},
+            {"view", r.view},
+            {"technique", r.technique},
+            {"backend", r.backend},
+            {"map_size", r.map_size},
+            {"maps", r.maps},
+            {"lit_facing_pixels", r.lit_facing_pixels},
+            {"off_edge_pixels", r.off_edge_pixels},
+            {"beyond_pixels", r.beyond_pixels},
+            {"unmapped_pixels", r.unmapped_pixels},
+            {"mis_shadowed_fraction", r.mis_shadowed_fraction},
+            {"mis_shadowed_fraction_off_edge", r.mis_shadowed_fraction_off_edge},
+            {"footprint_max", r.footprint_max},
+            {"footprint_p95", r.footprint_p95},
+            {"footprint_mean", r.footprint_mean},
+            {"map_used_fraction", r.map_used_fraction},
+            {"ms_depth", r.ms_depth},
+            {"ms_receive", r.ms_receive},
+            {"unlike_first_backend_fraction", r.unlike_first_backend_fraction},
+            {"splits", r.splits},
+            {"note", r.note}};
+}
+
+Json to_json(Claim const& c) {
+    return {{"id", c.id},           {"source", c.source}, {"statement", c.statement},
+            {"measured", c.measured}, {"holds", c.holds},   {"reason", c.reason}};
+}
+
+Json to_json(Technique const& t) {
+    return {{"id", t.id}, {"title", t.title}, {"source", t.source}, {"map_size", t.map_size}, {"maps", t.maps},
+            {"serves_spots", t.serves_spots}};
+}
+
+// Degrees of the light above the horizon.
+double elevation(scenes::View const& view) {
+    glm::dvec3 const travel = view.has_spot ? view.spot_axis : view.light_travel;
+    return std::asin(std::fmin(std::fmax(-travel.y, -1.0), 1.0)) * 180.0 / 3.14159265358979323846;
+}
+
+Json to_json(scenes::View const& view) {
+    return {{"name", view.name},
+            {"light", view.has_spot ? "spot" : "sun"},
+            {"light_elevation_degrees", elevation(view)},
+            {"shadow_distance", view.shadow_distance},
+            {"truth", picture_path("", view.name, "truth").filename().string()}};
+}
+
+Json to_json(scenes::NamedScene const& named, Settings const& settings) {
+    Json views = Json::array();
+    for (scenes::View const& view : chosen_views(named, settings)) views.push_back(to_json(view));
+    return {{"name", named.scene.name},
+            {"triangles", named.scene.indices.size() / 3},
+            {"objects", named.scene.objects.size()},
+            {"views", views}};
+}
+
+std::string css(Colour c) {
+    return "rgb(" + std::to_string(c[0]) + "," + std::to_string(c[1]) + "," + std::to_string(c[2]) + ")";
+}
+
+template <class Items>
+Json list(Items const& items) {
+    Json array = Json::array();
+    for (auto const& item : items) array.push_back(to_json(item));
+    return array;
+}
+
+}  // namespace
+
+std::string results_json(Settings const& settings, std::span<scenes::NamedScene const> scenes, Backends backends,
+                         Results const& results) {
+    Json drivers = Json::array();
+    for (auto const& backend : backends) drivers.push_back({{"name", backend->info().name}, {"driver", backend->info().driver}});
+    Json shown = Json::array();
+    for (auto const& named : scenes) shown.push_back(to_json(named, settings));
+    Json heat = Json::array(), tints = Json::array();
+    for (Colour const colour : footprint_scale(16)) heat.push_back(css(colour));
+    for (int map = 0; map < backend::max_maps; ++map) tints.push_back(css(map_tint(map)));
+
+    Json const document = {
+        {"records", list(results.records)},
+        {"claims", list(results.claims)},
+        {"machine", {{"backends", drivers}, {"threads", std::thread::hardware_concurrency()}}},
+        {"settings",
+         {{"width", settings.extent.width},
+          {"height", settings.extent.height},
+          {"quick", settings.quick},
+          {"seed", settings.seed},
+          {"filter_radius", filter_radius},
+          {"edge_radius_pixels", 1.25}}},
+        {"techniques", list(techniques(settings.quick))},
+        {"scenes", shown},
+        {"palette", {{"footprint", heat}, {"maps", tints}}},
+    };
+    // Driver strings and file names may hold any byte; what is no UTF-8 is replaced.
+    return document.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace shadowmath::gallery

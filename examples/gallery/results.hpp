@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// The gallery in one JSON document: results.json, and what the page is built from.
+#pragma once
+
+#include "examples/gallery/run.hpp"
+
+#include <string>
+
+namespace shadowmath::gallery {
+
+// {"records": [...], "claims": [...], "machine": {...}, "settings": {...}, "techniques": [...], "scenes": [...]}
+[[nodiscard]] std::string results_json(Settings const& settings, std::span<scenes::NamedScene const> scenes,
+                                       Backends backends, Results const& results);
+
+}  // namespace shadowmath::gallery

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// The gallery's work: every technique, through every backend, in every view, against the truth.
+#pragma once
+
+#include "examples/gallery/claims.hpp"
+#include "examples/gallery/record.hpp"
+#include "examples/gallery/settings.hpp"
+#include "examples/gallery/techniques.hpp"
+#include "scenes/scenes.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace shadowmath::gallery {
+
+using Backends = std::span<std::unique_ptr<backend::Backend> const>;
+
+struct Results {
+    std::vector<Record> records;
+    std::vector<Claim> claims;
+};
+
+// Called with one line for whoever waits, without its end; may throw to stop the work.
+using Tell = std::function<void(std::string const& line)>;
+
+// The views of a scene that this run shows: all, or two that span them.
+[[nodiscard]] std::span<scenes::View const> chosen_views(scenes::NamedScene const& scene, Settings const& settings);
+
+// Writes the pictures of the first backend below folder, as picture_path names them. The first backend also finds the
+// truth and measures the claims; the others give records.
+[[nodiscard]] Results run(Settings const& settings, std::span<scenes::NamedScene const> scenes, Backends backends,
+                          std::filesystem::path const& folder, Tell const& tell);
+
+// "images/SCENE/VIEW/NAME.png" where NAME is "truth" or "TECHNIQUE-KIND", KIND one of "picture", "difference", "maps",
+// "overlay", "footprint".
+[[nodiscard]] std::filesystem::path picture_path(std::string const& scene, std::string const& view,
+                                                 std::string const& name);
+
+}  // namespace shadowmath::gallery

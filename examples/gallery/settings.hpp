@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// What the user asked for.
+#pragma once
+
+#include "backends/image.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowmath::gallery {
+
+struct Settings {
+    std::vector<std::filesystem::path> models;  // OBJ files
+    std::vector<std::string> scenes;            // built-in scenes by name
+    std::filesystem::path out = "out/gallery";
+    std::string backend = "all";                // "egl", "osmesa" or "all"
+    backend::Extent extent{960, 540};
+    std::uint64_t seed = 1;
+    bool quick = false;
+};
+
+}  // namespace shadowmath::gallery

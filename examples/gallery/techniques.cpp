@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "examples/gallery/techniques.hpp"
+
+#include <shadowmath/shadowmath.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace shadowmath::gallery {
+namespace {
+
+using backend::FrameConstants;
+using backend::MapChoice;
+using backend::MapConstants;
+using backend::Scene;
+using scenes::View;
+
+// Maths in double, rounded to float once, when the matrices go to the shader.
+using View3 = ViewVolume<double>;
+
+constexpr ClipSpace clip = gl_zero_to_one_clip;  // what every backend draws with
+constexpr double margin_texels = filter_radius + 1.0;
+
+View3 eye_of(View const& view, backend::Extent extent) {
+    Pose<double> const pose = pose_looking(view.eye, view.forward, view.up);
+    return perspective_view(pose, view.fov_y_radians, double(extent.width) / double(extent.height), view.z_near,
+                            std::max(2000.0, 2.0 * view.shadow_distance));
+}
+
+Light<double> light_of(View const& view) {
+    return view.has_spot ? spot(view.spot_position, view.spot_axis, view.spot_half_angle_radians, view.spot_range)
+                         : directional(view.light_travel);
+}
+
+Aabb<double> box_of(backend::Object const& object) {
+    return {glm::dvec3(object.lo), glm::dvec3(object.hi)};
+}
+
+Aabb<double> box_of_all(Scene const& scene, bool backend::Object::*role) {
+    Aabb<double> all;
+    for (auto const& object : scene.objects)
+        if (object.*role) all = merge(all, box_of(object));
+    return all;
+}
+
+// True unless all corners lie outside one plane of the clip volume. Depth nearer than the map's range counts as inside:
+// such casters are clamped onto it, not lost.
+bool may_touch(glm::dmat4 const& clip_from_world, Aabb<double> const& box) {
+    int outside[6] = {};
+    for (auto const& corner : corners(box)) {
+        glm::dvec4 const p = clip_from_world * glm::dvec4(corner, 1.0);
+        outside[0] += p.x < -p.w, outside[1] += p.x > p.w, outside[2] += p.y < -p.w, outside[3] += p.y > p.w;
+        outside[4] += p.w <= 0.0, outside[5] += p.z > p.w;
+    }
+    return std::none_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
+}
+
+std::vector<std::uint32_t> casters_in(glm::dmat4 const& clip_from_world, Scene const& scene) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+        if (scene.objects[i].casts && may_touch(clip_from_world, box_of(scene.objects[i]))) indices.push_back(i);
+    return indices;
+}
+
+void note(MapSet& set, Faults faults) {
+    for (std::uint32_t bit = 1; bit != 0; bit <<= 1)
+        if (faults.bits & bit) set.note += (set.note.empty() ? "" : "; ") + std::string(describe(static_cast<Fault>(bit)));
+}
+
+// What a technique is given, made once.
+struct Input {
+    Scene const& scene;
+    View3 eye;                    // the whole camera
+    View3 seen;                   // up to the shadow distance
+    Light<double> light;
+    Aabb<double> casters, receivers;
+    int map_size;
+};
+
+// Takes a map into the set, with the constants that its receivers need. Maps that serve nothing are left out.
+void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<double> const& range) {
+    note(set, map.faults);
+    if (!map.visible) return;
+    BiasOptions<double> options;
+    options.filter_radius = filter_radius;
+    MapBias<double> const bias = bias_for(map, in.light, in.map_size, options);
+    MapConstants& constants = set.frame.maps[set.maps.size()];
+    constants.clip_from_world = glm::mat4(map.clip_from_world);
+    constants.depth_begin = float(range.begin);
+    constants.depth_end = float(range.end);
+    constants.blend_begin = float(range.blend_begin);
+    constants.w_min = float(map.w_min);
+    constants.bias_constant = float(bias.constant);
+    constants.bias_w = float(bias.per_inverse_w);
+    constants.bias_slope_texels = float(bias.slope_texels);
+    constants.slope_limit = float(bias.slope_limit);
+    set.maps.push_back({map.clip_from_world, casters_in(map.clip_from_world, in.scene)});
+    set.frame.map_count = int(set.maps.size());
+}
+
+SliceRange<double> whole(Input const& in) {
+    return {in.seen.z_near, in.seen.z_far, in.seen.z_far};
+}
+
+void cascades(MapSet& set, Input const& in, int count, double lambda, CascadeFit fit) {
+    CascadeOptions<double> options;
+    options.count = count;
+    options.lambda = lambda;
+    options.fit = fit;
+    options.map_size = in.map_size;
+    options.filter_radius = filter_radius;
+    options.clip = clip;
+    Cascades<double> const fitted = fit_cascades(in.seen, in.light, in.casters, in.receivers, options);
+    note(set, fitted.faults);
+    for (Cascade<double> const& cascade : fitted) {
+        add(set, in, cascade.map, cascade.range);
+        set.splits.push_back(cascade.range.end);
+    }
+    if (fitted.count > 0) set.splits.insert(set.splits.begin(), in.seen.z_near);
+}
+
+ShadowMap<double> standard_map(Input const& in) {
+    CascadeOptions<double> options;
+    options.count = 1;
+    options.fit = CascadeFit::tight;
+    options.map_size = in.map_size;
+    options.filter_radius = filter_radius;
+    options.clip = clip;
+    Cascades<double> const fitted = fit_cascades(in.seen, in.light, in.casters, in.receivers, options);
+    ShadowMap<double> map = fitted.count > 0 ? fitted.at[0].map : ShadowMap<double>{};
+    map.faults |= fitted.faults;
+    return map;
+}
+
+// Height of the ground for the thesis' shadow plane: the median foot of the objects in view.
+double ground_height(Input const& in) {
+    glm::dmat4 const eye = clip_from_world(in.seen, clip);
+    std::vector<double> feet;
+    for (auto const& object : in.scene.objects)
+        if (object.receives && may_touch(eye, box_of(object))) feet.push_back(double(object.lo.y));
+    if (feet.empty()) return 0.0;
+    auto const middle = feet.begin() + std::ptrdiff_t(feet.size() / 2);
+    std::nth_element(feet.begin(), middle, feet.end());
+    return *middle;
+}
+
+ShadowMap<double> thesis_map(Input const& in) {
+    VdsmOptions<double> options;
+    options.map_size = in.map_size;
+    options.margin_texels = margin_texels;
+    ShadowPlane<double> const ground{glm::dvec3(0.0, 1.0, 0.0), -ground_height(in)};
+    return view_dependent_map(in.seen, in.light, ground, in.casters, in.receivers, options, clip);
+}
+
+ShadowMap<double> warped_map(Input const& in) {
+    WarpOptions<double> options;
+    options.map_size = in.map_size;
+    options.margin_texels = margin_texels;
+    return simple_perspective_map(in.seen, in.light, in.casters, in.receivers, options, clip);
+}
+
+struct Entry {
+    Technique technique;
+    bool quick;                                        // also in quick runs
+    std::function<void(MapSet&, Input const&)> make;
+};
+
+std::vector<Entry> const& entries() {
+    auto const pssm = "GPU Gems 3 ch. 10 (Zhang et al. 2007)";
+    auto const by_depth = [](int count, double lambda, CascadeFit fit) {
+        return [=](MapSet& set, Input const& in) { cascades(set, in, count, lambda, fit); };
+    };
+    auto const single = [](ShadowMap<double> (*make)(Input const&)) {
+        return [=](MapSet& set, Input const& in) { add(set, in, make(in), whole(in)); };
+    };
+    static std::vector<Entry> const all = {
+        {{"uniform-1", "One uniform map", "Williams 1978", 1024, 1, true}, true, single(standard_map)},
+        {{"uniform-1-2048", "One uniform map, four times the texels", "Williams 1978", 2048, 1, true}, false,
+         single(standard_map)},
+        {{"cascades-4-uniform", "Four cascades, uniform splits", pssm, 1024, 4, false}, false,
+         by_depth(4, 0.0, CascadeFit::stable)},
+        {{"cascades-4-log", "Four cascades, logarithmic splits", pssm, 1024, 4, false}, false,
+         by_depth(4, 1.0, CascadeFit::stable)},
+        {{"cascades-4-stable", "Four cascades, practical splits, stable", pssm, 1024, 4, true}, true,
+         by_depth(4, 0.5, CascadeFit::stable)},
+        {{"cascades-4-tight", "Four cascades, practical splits, tight", pssm, 1024, 4, true}, false,
+         by_depth(4, 0.5, CascadeFit::tight)},
+        {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false}, true,
+         single(warped_map)},
+        {{"vdsm", "View-dependent map, lit elsewhere", "Kwon 2002", 1024, 1, true}, false, single(thesis_map)},
+        {{"vdsm-fallback", "View-dependent map, uniform map behind it", "Kwon 2002", 1024, 2, true}, true,
+         [](MapSet& set, Input const& in) {
+             add(set, in, thesis_map(in), whole(in));
+             add(set, in, standard_map(in), whole(in));
+         }},
+    };
+    return all;
+}
+
+}  // namespace
+
+std::vector<Technique> techniques(bool quick) {
+    std::vector<Technique> list;
+    for (Entry const& entry : entries())
+        if (entry.quick || !quick) list.push_back(entry.technique);
+    return list;
+}
+
+FrameConstants unshadowed(View const& view, backend::Extent extent) {
+    View3 const eye = eye_of(view, extent);
+    Light<double> const light = light_of(view);
+    FrameConstants frame;
+    frame.clip_from_world = glm::mat4(clip_from_world(eye, clip));
+    frame.eye_position = glm::vec4(glm::vec3(eye.pose.position), 1.0f);
+    frame.eye_forward = glm::vec4(glm::vec3(eye.pose.forward), 0.0f);
+    frame.light = view.has_spot ? glm::vec4(glm::vec3(light.position), 1.0f)
+                                : glm::vec4(glm::vec3(-light.direction), 0.0f);
+    if (view.has_spot)
+        frame.spot_axis = glm::vec4(glm::vec3(light.direction), float(std::cos(light.half_angle_radians)));
+    frame.filter_radius = filter_radius;
+    return frame;
+}
+
+MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent) {
+    MapSet set;
+    set.map_size = technique.map_size;
+    set.frame = unshadowed(view, extent);
+    set.frame.map_size = float(technique.map_size);
+    set.frame.choice = technique.id.starts_with("cascades") ? MapChoice::by_depth : MapChoice::by_map;
+    View3 const eye = eye_of(view, extent);
+    View3 seen = eye;
+    seen.z_far = view.shadow_distance;
+    Input const in{scene,
+                   eye,
+                   seen,
+                   light_of(view),
+                   box_of_all(scene, &backend::Object::casts),
+                   box_of_all(scene, &backend::Object::receives),
+                   technique.map_size};
+    for (Entry const& entry : entries())
+        if (entry.technique.id == technique.id) entry.make(set, in);
+    return set;
+}
+
+}  // namespace shadowmath::gallery

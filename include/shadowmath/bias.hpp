@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+//
+// How much a receiver must be moved toward the light so that it does not shadow itself: given in texels or metres,
+// turned into depth of a particular map, the filter's kernel included. Fields go to the shader, which computes
+//
+//   bias = constant + per_inverse_w / w + slope_texels * (|slope.x| + |slope.y|)
+//
+// with slope the change of depth per texel on the receiver's plane. It is an amount of stored depth in favour of
+// light, not negative on anything that the map holds: subtract it where depth grows away from the light, add it where
+// it is reversed.
+//
+// Why 1/w: by the law of shadow maps a metre along a directional light adds k to clip depth and nothing to the other
+// three coordinates, in a warp or a view-dependent map as in a plain one. So a bias in metres is constant before the
+// division.
+//
+// Source: the slope on the receiver's plane is that of Isidoro, GDC 2006, and Dou et al., I3D 2014; taken from the
+// normal instead of screen derivatives, which are wrong at every silhouette. The normal offset is Holbert's, GDC
+// 2011.
+#pragma once
+
+#include <shadowmath/clip_space.hpp>
+#include <shadowmath/config.hpp>
+#include <shadowmath/finite.hpp>
+#include <shadowmath/light.hpp>
+#include <shadowmath/shadow_map.hpp>
+#include <shadowmath/tangent.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct DepthSlope {
+    T x = T(0);  // stored depth gained per texel
+    T y = T(0);
+};
+
+// Exact for every projective map, because those take planes to planes: on the plane, depth at a texel is depth at the
+// point + slope . (texel - point). Each axis is clamped to [-limit, limit], which is also its value on a plane that
+// the light grazes. Zero where the map does not hold the point or the normal has no length; never NaN.
+template <class T>
+[[nodiscard]] inline DepthSlope<T> slope(ShadowMap<T> const& map, int map_size, Vec3<T> const& point,
+                                         Vec3<T> const& normal, T limit) noexcept {
+    if (!all_finite(map.clip_from_world)) return {};
+    Mat4<T> const texture = texture_from_world(map);
+    Projected<T> const at = projected(texture, point, map.w_min);
+    Tangents<T> const plane = tangents(normal);
+    if (!at.in_front || !plane.ok || map_size < 1 || !all_finite(&limit, 1) || !(limit > T(0))) return {};
+    Vec3<T> s = gain_along(texture, at, plane.s);
+    Vec3<T> t = gain_along(texture, at, plane.t);
+    // Over the largest of them, the product of two gains neither under- nor overflows.
+    T largest = T(0);
+    for (T const gain : {s.x, s.y, t.x, t.y}) largest = std::abs(gain) > largest ? std::abs(gain) : largest;
+    if (!(largest > T(0)) || !all_finite(&largest, 1) || !all_finite(s) || !all_finite(t)) return {};
+    s = s / largest;
+    t = t / largest;
+    T const area = (s.x * t.y - s.y * t.x) * T(map_size);
+    return {bounded_quotient(s.z * t.y - s.y * t.z, area, limit), bounded_quotient(s.x * t.z - s.z * t.x, area, limit)};
+}
+
+// The k of the law: matrix * light = (0, 0, k, 0). For a directional light it is the clip depth that a metre along
+// the light adds. Canonical, so positive in every convention; 0 for a light or a map that cannot be used.
+template <class T>
+[[nodiscard]] inline T depth_gain(ShadowMap<T> const& map, Light<T> const& light) noexcept {
+    if (!all_finite(map.clip_from_world) || unusable(light)) return T(0);
+    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
+    T const gain = glm::dot(row(canonical, 2), homogeneous(light));
+    return all_finite(&gain, 1) ? std::abs(gain) : T(0);
+}
+
+// Stored depth between a point and itself `metres` (>= 0) nearer to the light: exact for any map of this light. The
+// way toward a spot is at most half of the distance to it. 0 where the map does not hold the point.
+template <class T>
+[[nodiscard]] inline T depth_shift(ShadowMap<T> const& map, Light<T> const& light, Vec3<T> const& point,
+                                   T metres) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front || !all_finite(&metres, 1) || !(metres > T(0)) || unusable(light)) return T(0);
+    T way = metres;
+    if (light.kind == LightKind::spot) {
+        // (p, 1) + s * l / (1 - s) is the point pulled by the share s of the way: clip z gains k s / (1 - s).
+        T const distance = safe_normalize(point - light.position).length;
+        T const pulled = metres < distance * T(0.5) ? metres : distance * T(0.5);
+        way = bounded_quotient(pulled, distance - pulled, T(1));
+    }
+    T const shift = depth_gain(map, light) * way / at.w;
+    return all_finite(&shift, 1) && shift < T(1) ? shift : T(1);
+}
+
+// What the shader needs of one map.
+template <class T>
+struct MapBias {
+    T constant = T(0);
+    T per_inverse_w = T(0);
+    T slope_texels = T(0);
+    T slope_limit = T(1);  // the largest change of depth a texel that slope terms believe
+};
+
+template <class T>
+struct BiasOptions {
+    T texels = T(0.5);      // texels of slope in favour of light: for surfaces that are not quite their planes
+    T metres = T(0);        // along the light, on top
+    int filter_radius = 1;  // half width of the kernel, texels
+    bool tap_plane =
+        true;            // each tap is compared with the plane's depth there; false: the kernel goes into slope_texels
+    T steepest = T(20);  // tangent of the angle between light and normal beyond which slopes are cut
+    T depth_step = T(1) / T(1 << 23);  // of the stored format: 2^-23 for float and for 24 bits, 2^-16 for 16 bits
+};
+
+// The bias of one shader invocation: `w` is the receiver's clip w, `at_receiver` its slope.
+template <class T>
+[[nodiscard]] inline T depth_bias(MapBias<T> const& bias, T w, DepthSlope<T> const& at_receiver) noexcept {
+    T const amount = bias.constant + bias.per_inverse_w / w +
+                     bias.slope_texels * (std::abs(at_receiver.x) + std::abs(at_receiver.y));
+    return all_finite(&amount, 1) && amount > T(0) ? amount : T(0);
+}
+
+// Half the kernel's width and half a texel, as a stored depth is that of its texel's centre. Texels.
+template <class T>
+[[nodiscard]] constexpr T kernel_reach_texels(int filter_radius) noexcept {
+    return (filter_radius > 0 ? T(filter_radius) : T(0)) + T(0.5);
+}
+
+// Metres to move a receiver along its unit normal before projecting it, instead of a slope bias: a plane then does
+// not shadow itself, and the amount stays bounded at grazing light. `to_light` is unit; 0 for a normal along the
+// light.
+template <class T>
+[[nodiscard]] inline T normal_offset_metres(T texel_metres, int filter_radius, Vec3<T> const& normal,
+                                            Vec3<T> const& to_light) noexcept {
+    if (!all_finite(normal) || !all_finite(to_light) || !all_finite(&texel_metres, 1) || !(texel_metres > T(0)))
+        return T(0);
+    T const sine = glm::length(glm::cross(normal, to_light));
+    return T(1.41421356237309504880168872420969808L) * kernel_reach_texels<T>(filter_radius) * texel_metres *
+           (sine < T(1) ? sine : T(1));
+}
+
+namespace detail {
+
+// Of stored depth per texel on a plane at half a right angle to the light, the most that the map has anywhere. NDC x
+// = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as w, its depth shrinks as 1 / w, and
+// only the least of |X - x W| over the map is left.
+template <class T>
+[[nodiscard]] inline T diagonal_slope(Mat4<T> const& canonical, int map_size, T gain_per_metre) noexcept {
+    Vec3<T> const w_row(row(canonical, 3));
+    T steepest = T(0);
+    for (int axis = 0; axis < 2; ++axis) {
+        Vec3<T> const side(row(canonical, axis));
+        T const nearest = bounded_quotient(glm::dot(side, w_row), glm::dot(w_row, w_row), T(1));
+        T const change = safe_normalize(side - w_row * nearest).length;
+        T const diagonal = bounded_quotient(T(2) * gain_per_metre, change * T(map_size), T(1));
+        steepest = diagonal > steepest ? diagonal : steepest;
+    }
+    return steepest;
+}
+
+// 1 / w on the axis of a spot's map where depth is 0 and where it is 1: on the axis depth = A - k / w.
+template <class T>
+struct InverseW {
+    T nearest = T(0);
+    T farthest = T(0);
+};
+
+template <class T>
+[[nodiscard]] inline InverseW<T> ends_of_axis(Mat4<T> const& canonical, Light<T> const& light, T gain) noexcept {
+    Vec4<T> const axis(light.direction, T(0));
+    T const at_infinity = glm::dot(row(canonical, 2), axis) / glm::dot(row(canonical, 3), axis);
+    InverseW<T> const ends{at_infinity / gain, (at_infinity - T(1)) / gain};
+    if (!all_finite(&ends.nearest, 1) || !all_finite(&ends.farthest, 1) || !(ends.nearest > T(0))) return {};
+    return {ends.nearest, ends.farthest > T(0) ? ends.farthest : T(0)};
+}
+
+template <class T>
+[[nodiscard]] inline bool is_affine(Mat4<T> const& matrix) noexcept {
+    return row(matrix, 3) == Vec4<T>(T(0), T(0), T(0), T(1));
+}
+
+template <class T>
+[[nodiscard]] inline T option(T const& value, T fallback) noexcept {
+    return all_finite(&value, 1) && value >= T(0) ? value : fallback;
+}
+
+// Everything but the metres.
+template <class T>
+[[nodiscard]] inline MapBias<T> bias_of_kernel(Mat4<T> const& canonical, int map_size, T gain_per_metre,
+                                               BiasOptions<T> const& options) noexcept {
+    MapBias<T> bias;
+    // One step where the map is written and one where it is read. Shaders compute in float whatever T is, so the
+    // terms of a clip coordinate, as large as its offset from the world's origin, leave a few roundings behind, in
+    // depth and texels.
+    T const rounding = T(8) * T(std::numeric_limits<float>::epsilon());
+    bias.constant = T(2) * option(options.depth_step, T(0));
+    bias.per_inverse_w = rounding * std::abs(canonical[3][2]);
+    bias.slope_texels = option(options.texels, T(0));
+    if (!options.tap_plane) bias.slope_texels += kernel_reach_texels<T>(options.filter_radius);
+    if (is_affine(canonical)) {
+        T const x = std::abs(canonical[3][0]), y = std::abs(canonical[3][1]);
+        bias.slope_texels += rounding * (x > y ? x : y) * T(map_size) * T(0.5);
+    }
+    T const limit = option(options.steepest, T(20)) * diagonal_slope(canonical, map_size, gain_per_metre);
+    bias.slope_limit = limit > T(0) && limit < T(1) ? limit : T(1);
+    return bias;
+}
+
+template <class T>
+[[nodiscard]] inline MapBias<T> harmless(MapBias<T> const& bias) noexcept {
+    bool const finite = all_finite(&bias.constant, 1) && all_finite(&bias.per_inverse_w, 1) &&
+                        all_finite(&bias.slope_texels, 1) && all_finite(&bias.slope_limit, 1);
+    return finite ? bias : MapBias<T>{};
+}
+
+}  // namespace detail
+
+// The bias of a whole map. Of a directional light, `metres` are exact everywhere, in every technique; where w is 1
+// everywhere they are part of `constant`. Of a spot the bias in depth falls as 1 / w^2, for which the shader has no
+// term: the chord of that curve between the map's ends is used, at least `metres` everywhere, exact at both ends of
+// the axis and more between (to first order in metres over distance). For maps of spots whose depth runs along the
+// axis, as fit_spot's does; for any other, and where that is too much, use bias_at. Nothing finite to say: no bias.
+template <class T>
+[[nodiscard]] inline MapBias<T> bias_for(ShadowMap<T> const& map, Light<T> const& light, int map_size,
+                                         BiasOptions<T> const& options) noexcept {
+    T const gain = depth_gain(map, light);
+    if (!(gain > T(0)) || map_size < 1) return {};
+    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
+    T const metres = detail::option(options.metres, T(0));
+    if (light.kind == LightKind::directional) {
+        MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, options);
+        bias.per_inverse_w += gain * metres;
+        if (detail::is_affine(canonical)) {
+            bias.constant += bias.per_inverse_w;
+            bias.per_inverse_w = T(0);
+        }
+        return detail::harmless(bias);
+    }
+    detail::InverseW<T> const ends = detail::ends_of_axis(canonical, light, gain);
+    T const w_per_metre = safe_normalize(Vec3<T>(row(canonical, 3))).length;
+    MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain * w_per_metre * ends.nearest, options);
+    T const curve = gain * w_per_metre * metres;
+    bias.constant -= curve * ends.nearest * ends.farthest;
+    bias.per_inverse_w += curve * (ends.nearest + ends.farthest);
+    return detail::harmless(bias);
+}
+
+// The same with `metres` exact at one point, of any map: for shaders that compute bias per object or per pixel.
+template <class T>
+[[nodiscard]] inline MapBias<T> bias_at(ShadowMap<T> const& map, Light<T> const& light, int map_size,
+                                        BiasOptions<T> const& options, Vec3<T> const& point) noexcept {
+    BiasOptions<T> without_metres = options;
+    without_metres.metres = T(0);
+    MapBias<T> bias = bias_for(map, light, map_size, without_metres);
+    bias.constant += depth_shift(map, light, point, detail::option(options.metres, T(0)));
+    return detail::harmless(bias);
+}
+
+}  // namespace v0
+}  // namespace shadowmath

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+//
+// The one call: a view, a light and two boxes in; one matrix a cascade out.
+//
+//   view ── splits ── slices ─┬─ fit ── depth range ── matrix      stable   bounding sphere on a texel grid: nothing
+//   light ── basis ───────────┘                                             shimmers when the camera moves or turns
+//                                                                   tight    light-space box: up to twice the texels,
+//                                                                            and shadow edges crawl under motion
+//
+// Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own, so a
+// renderer that needs another order calls them itself.
+//
+// Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
+// inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable fit
+// is the minimal sphere, and its grid has integer origins.
+#pragma once
+
+#include <shadowmath/bounds.hpp>
+#include <shadowmath/config.hpp>
+#include <shadowmath/depth_range.hpp>
+#include <shadowmath/fit_box.hpp>
+#include <shadowmath/fit_crop.hpp>
+#include <shadowmath/fit_sphere.hpp>
+#include <shadowmath/light.hpp>
+#include <shadowmath/shadow_map.hpp>
+#include <shadowmath/slice.hpp>
+#include <shadowmath/splits.hpp>
+#include <shadowmath/texel_grid.hpp>
+#include <shadowmath/view_volume.hpp>
+
+namespace shadowmath {
+inline namespace v0 {
+
+enum class CascadeFit : std::uint8_t { stable, tight };
+
+template <class T>
+struct CascadeOptions {
+    int count = 4;                      // maps, 1 to max_splits
+    int map_size = 2048;                // texels along one side of each
+    CascadeFit fit = CascadeFit::stable;
+    T lambda = T(0.5);                  // of the practical splits: 1 logarithmic, 0 uniform
+    T first_split_end = T(0);           // metres of eye depth at which the first split ends; 0: wherever lambda puts it
+    T shadow_distance = T(0);           // metres of eye depth up to which shadows are wanted; 0: the view's far distance
+    T blend = T(0.1);                   // fraction of each slice that fades into the next; 0: hard seams
+    int filter_radius = 1;              // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
+    bool pancake = false;               // true: near plane at the slice, and the renderer turns depth clamp ON
+    ClipSpace clip = gl_clip;           // the convention of the pass that draws the maps
+};
+
+template <class T>
+struct Cascade {
+    ShadowMap<T> map;
+    SliceRange<T> range;                // metres of eye depth that it serves
+    T texel_metres = T(0);              // across the light; of a spot, at the far end of its range
+    T depth_metres = T(0);              // along the light, from depth 0 to depth 1
+};
+
+template <class T>
+struct Cascades {
+    Cascade<T> at[max_splits];
+    int count = 0;                      // 0: nothing to draw, everything lit
+    Faults faults;                      // of the inputs, and of every map
+
+    [[nodiscard]] Cascade<T> const* begin() const noexcept { return at; }
+    [[nodiscard]] Cascade<T> const* end() const noexcept { return at + count; }
+};
+
+namespace detail {
+
+// The view with what can be mended mended: axes orthonormal, far at the shadow distance.
+template <class T>
+[[nodiscard]] inline ViewVolume<T> shadowed_part(ViewVolume<T> const& view, T const& shadow_distance,
+                                                 Faults& faults) noexcept {
+    faults |= faults_of(view);
+    ViewVolume<T> part = view;
+    if (faults.has(Fault::not_finite) || faults.has(Fault::bad_pose)) return part;
+    part.pose = orthonormalized(view.pose);
+    bool const endless = is_positive_infinity(&view.z_far);
+    if (!all_finite(&shadow_distance, 1) || shadow_distance < T(0)) {
+        faults |= Fault::clamped_option;
+    } else if (shadow_distance > T(0) && (endless || shadow_distance < view.z_far)) {
+        part.z_far = shadow_distance;
+        if (!(part.z_near < part.z_far)) faults |= Fault::empty_range;
+        return part;
+    }
+    if (endless) {
+        // Somewhere shadows must end. A thousand metres, or ten thousand near distances where the unit is larger.
+        part.z_far = view.z_near * T(1e4) > T(1000) ? view.z_near * T(1e4) : T(1000);
+        faults |= Fault::far_clamped;
+    }
+    return part;
+}
+
+template <class T>
+[[nodiscard]] inline int kernel_radius(CascadeOptions<T> const& options, Faults& faults) noexcept {
+    int const most = options.map_size / 4 < 64 ? options.map_size / 4 : 64;
+    int const radius = options.filter_radius < 0 ? 0 : (options.filter_radius > most ? most : options.filter_radius);
+    if (radius != options.filter_radius) faults |= Fault::clamped_option;
+    return radius;
+}
+
+template <class T>
+inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
+                            Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
+                            CascadeOptions<T> const& options) noexcept {
+    std::array<Vec3<T>, 8> const body = corners(part);
+    LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
+    DepthRange<T> const slice_depth{sides.depth_lo, sides.depth_hi, true};
+    TexelGrid<T> grid;
+    if (options.fit == CascadeFit::stable) {
+        grid = texel_grid(basis, bounding_sphere(part), options.map_size, margin_texels);
+        cascade.map.faults |= grid.faults;
+        if (!grid.visible) return;
+        sides = on_grid(grid, sides.depth_lo, sides.depth_hi);
+    }
+    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
+    if (!depth.visible) return;
+    sides.depth_lo = depth.lo;
+    sides.depth_hi = depth.hi;
+    cascade.map.clip_from_world = options.fit == CascadeFit::stable
+                                      ? clip_from_world(grid, depth.lo, depth.hi, options.clip)
+                                      : clip_from_world(sides, options.clip);
+    Vec2<T> const texel = texel_metres(sides, options.map_size);
+    cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
+    cascade.depth_metres = depth.hi - depth.lo;
+    cascade.map.visible = true;
+}
+
+}  // namespace detail
+
+// Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its slice,
+// filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that map.
+// With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera does.
+// `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault.
+template <class T>
+[[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
+                                              Aabb<T> const& receivers, CascadeOptions<T> const& options) noexcept {
+    Cascades<T> cascades;
+    Faults faults = faults_of(light);
+    ViewVolume<T> const seen = detail::shadowed_part(view, options.shadow_distance, faults);
+    if (!all_finite(casters) || !all_finite(receivers)) faults |= Fault::not_finite;
+    bool const unusable_view = faults.has(Fault::not_finite) || faults.has(Fault::bad_frustum) ||
+                               faults.has(Fault::bad_pose) || faults.has(Fault::empty_range);
+    if (unusable_view || unusable(light)) {
+        cascades.faults = faults;
+        return cascades;
+    }
+    if (options.map_size < 1) {
+        cascades.faults = faults | Fault::map_too_small;
+        return cascades;
+    }
+    bool const pinned = !(options.first_split_end == T(0));
+    Splits<T> const splits =
+        pinned ? pinned_splits(seen.z_near, seen.z_far, options.count, options.first_split_end, options.lambda)
+               : practical_splits(seen.z_near, seen.z_far, options.count, options.lambda);
+    // One texel more than the kernel needs: the texel that holds the point may be cut by the map's side.
+    T const margin_texels = T(detail::kernel_radius(options, faults) + 1);
+    T blend = options.blend;
+    if (!all_finite(&options.blend, 1) || blend < T(0) || blend > T(1)) {
+        blend = all_finite(&options.blend, 1) && blend > T(1) ? T(1) : T(0);
+        faults |= Fault::clamped_option;
+    }
+    LightBasis<T> const basis = light_basis(light.direction);
+    cascades.count = splits.count;
+    cascades.faults = faults | splits.faults;
+    for (int i = 0; i < splits.count; ++i) {
+        Cascade<T>& cascade = cascades.at[i];
+        cascade.range = slice_range(splits, i, blend);
+        cascade.map.clip = options.clip;
+        ViewVolume<T> const part = slice(seen, cascade.range);
+        if (is_empty(casters) || is_empty(receivers)) continue;
+        if (light.kind == LightKind::directional) {
+            detail::fit_directional(cascade, part, basis, casters, receivers, margin_texels, options);
+        } else {
+            cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
+        }
+        cascades.faults |= cascade.map.faults;
+    }
+    return cascades;
+}
+
+}  // namespace v0
+}  // namespace shadowmath

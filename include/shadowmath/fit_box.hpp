@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// The smallest light-space box around a body: up to twice the texels of the sphere's square, at the price of a size and
+// a place that change with every turn of the camera, so that shadow edges crawl. For maps that are drawn once, for cameras
+// that stand still, and under a temporal filter; else fit_sphere and texel_grid.
+//
+// Source: any "fit to frustum" since GPU Gems 3 chapter 10. Departure: the filter's margin is part of the fit.
+#pragma once
+
+#include <shadowmath/bounds.hpp>
+#include <shadowmath/config.hpp>
+#include <shadowmath/light.hpp>
+#include <shadowmath/light_box.hpp>
+#include <shadowmath/margin.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace shadowmath {
+inline namespace v0 {
+
+namespace detail {
+
+// The interval, or where it is shorter, one of this length around its middle.
+template <class T>
+inline void widen(T& lo, T& hi, T least) noexcept {
+    if (hi - lo >= least) return;
+    T const middle = lo + (hi - lo) * T(0.5);
+    lo = middle - least * T(0.5);
+    hi = middle + least * T(0.5);
+}
+
+}  // namespace detail
+
+// Each corner lies at least `margin_texels` texels inside the four sides, and some corner exactly so at each of them;
+// depth runs from the first corner to the last. A flat body is widened to a texel of its largest extent, and to what
+// the scalar type can tell apart. Corners that are not finite, or beyond 1e18 m, give the box [-1, 1]^2 x [0, 1]; a map
+// without room for the margin (faults_of_margin) is treated as one with a single usable texel.
+template <class T>
+[[nodiscard]] inline LightBox<T> fit_box(LightBasis<T> const& basis, std::array<Vec3<T>, 8> const& corners_in_world,
+                                         int map_size, T margin_texels) noexcept {
+    LightBox<T> box;
+    if (!all_finite(basis.x) || !all_finite(basis.y) || !all_finite(basis.depth)) return box;
+    Aabb<T> body;
+    for (Vec3<T> const& corner : corners_in_world) {
+        Vec3<T> const size = glm::abs(corner);
+        if (!all_finite(corner) || !(size.x <= T(1e18) && size.y <= T(1e18) && size.z <= T(1e18))) return box;
+        body = merge(body, in_light(basis, corner));
+    }
+    Vec3<T> const extent = body.hi - body.lo, magnitude = glm::max(glm::abs(body.lo), glm::abs(body.hi));
+    T const largest = std::fmax(extent.x, std::fmax(extent.y, extent.z));
+    T const distance = std::fmax(magnitude.x, std::fmax(magnitude.y, magnitude.z));
+    T const rounding = T(4) * std::numeric_limits<T>::epsilon() * distance;
+    T const texels = map_size > 1 ? T(map_size) : T(1);
+    // A micrometre: the one point at the origin has no scale of its own.
+    T const least = std::fmax(std::fmax(largest / texels, rounding), T(1e-6));
+    box.basis = basis;
+    for (int axis = 0; axis < 2; ++axis) {
+        T lo = body.lo[axis], hi = body.hi[axis];
+        detail::widen(lo, hi, least);
+        T const usable = usable_texels(map_size, margin_texels);
+        T const margin = T(0.5) * (texels - usable) / usable * (hi - lo);
+        // The rounding of the corners themselves, which margin 0 would leave outside.
+        box.lo[axis] = lo - margin - rounding;
+        box.hi[axis] = hi + margin + rounding;
+    }
+    box.depth_lo = body.lo.z - rounding;
+    box.depth_hi = body.hi.z + rounding;
+    detail::widen(box.depth_lo, box.depth_hi, std::fmax(rounding, T(1e-6)));
+    return box;
+}
+
+}  // namespace v0
+}  // namespace shadowmath

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+#
+# Sourced by scripts/demo and scripts/test: what each needs of Debian, once, and how it gets there.
+
+demo_packages=(
+    g++ cmake ninja-build
+    libglm-dev                                                   # the only one that the headers need
+    libegl-dev libgl-dev libopengl-dev libosmesa6-dev            # OpenGL, two ways into it
+    libegl-mesa0 libgl1-mesa-dri                                 # and a software driver
+    libembree-dev                                                # the ray-traced truth
+    libtinyobjloader-dev libpng-dev libcli11-dev nlohmann-json3-dev
+)
+test_packages=(
+    "${demo_packages[@]}"
+    libgtest-dev librapidcheck-dev
+    clang clang-format                                           # the second compiler, the layout of the code
+    pkg-config                                                   # one of the ways to find an installed shadowmath
+    chromium                                                     # opens the gallery
+)
+
+# Installs what is missing of the packages given, or prints the line that does and fails.
+install_packages() {
+    if ! command -v dpkg-query > /dev/null; then
+        printf 'No dpkg-query here; going on without a check. Needed, by their names in Debian 12:\n  %s\n' "$*" >&2
+        return 0
+    fi
+    local package missing=() as_root=()
+    for package in "$@"; do
+        [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null) == installed ]] || missing+=("$package")
+    done
+    ((${#missing[@]})) || return 0
+
+    if ((EUID != 0)); then
+        as_root=(sudo -n)
+        if ! sudo -n true 2> /dev/null; then
+            printf 'Packages are missing. Install them with this line, then start again:\n  %s\n' \
+                "sudo sh -c 'apt-get update && apt-get install --no-install-recommends ${missing[*]}'" >&2
+            return 1
+        fi
+    fi
+    printf 'Installing %s (takes a minute or two)\n' "${missing[*]}"
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
+        apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0)
+    "${apt[@]}" update < /dev/null || printf 'apt-get update failed; going on with the lists that are there\n' >&2
+    "${apt[@]}" install -y --no-install-recommends "${missing[@]}" < /dev/null > /dev/null || {
+        printf 'apt-get could not install them; the line was:\n  %s\n' \
+            "apt-get install --no-install-recommends ${missing[*]}" >&2
+        return 1
+    }
+}

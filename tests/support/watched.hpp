@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs a call and tells what it did besides returning: allocations from the heap, and exceptions raised in the
+// floating-point unit. shadowmath promises neither. Nothing traps: the flags are read afterwards.
+#pragma once
+
+#include <cfenv>
+#include <cstdint>
+
+namespace shadowmath::test {
+
+// Calls of any operator new since the program began (main.cpp replaces them to count).
+[[nodiscard]] std::uint64_t allocation_count();
+
+template <class Result>
+struct Watched {
+    Result result;
+    std::uint64_t allocations;
+    int raised;  // of FE_INVALID and FE_DIVBYZERO
+
+    [[nodiscard]] bool calm() const { return allocations == 0 && raised == 0; }
+};
+
+template <class Call>
+[[nodiscard, gnu::noinline]] auto watched(Call const& call) -> Watched<decltype(call())> {
+    std::feclearexcept(FE_ALL_EXCEPT);
+    std::uint64_t const before = allocation_count();
+    auto result = call();
+    // NOTE: without it the compiler may move the arithmetic past the reading of the flags.
+    asm volatile("" : : "g"(&result) : "memory");
+    int const raised = std::fetestexcept(FE_INVALID | FE_DIVBYZERO);
+    return {result, allocation_count() - before, raised};
+}
+
+}  // namespace shadowmath::test

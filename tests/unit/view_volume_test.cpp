@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/view_volume.hpp"
+#include "tests/support/projections.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace shadowmath;
+using namespace shadowmath::test;
+
+namespace {
+
+ViewVolume<double> off_centre() {
+    ViewVolume<double> view;
+    view.left = -0.75;
+    view.right = 1.5;
+    view.bottom = -0.25;
+    view.top = 0.5;
+    view.z_near = 0.5;
+    view.z_far = 200;
+    return view;
+}
+
+template <class T>
+bool reads_back_from_every_projection(ViewVolume<T> const& view) {
+    bool const flat = view.kind == ViewKind::orthographic;
+    for (Hand const hand : {Hand::right, Hand::left})
+        for (Depth const depth : all_depths)
+            for (bool const y_flipped : {false, true}) {
+                if (flat && (depth == Depth::endless || depth == Depth::reversed_endless)) continue;
+                Mat4<T> const clip_from_view = projection_of(view, hand, depth, y_flipped);
+                ViewVolume<T> expected = view;
+                if (y_flipped) {
+                    expected.bottom = view.bottom;
+                    expected.top = view.top;
+                }
+                if (!laws::has_the_sides_of(read_back(view, clip_from_view), expected)) return false;
+            }
+    return true;
+}
+
+}  // namespace
+
+TEST(ViewVolume, CornersOfACubeAreWhereAChildWouldPutThem) {
+    ViewVolume<float> const view = orthographic_view(Pose<float>{}, -1.0f, 1.0f, -1.0f, 1.0f, 0.0f, 2.0f);
+    std::array<glm::vec3, 8> const points = corners(view);
+    EXPECT_EQ(points[0], glm::vec3(-1, -1, 0));
+    EXPECT_EQ(points[1], glm::vec3(1, -1, 0));
+    EXPECT_EQ(points[2], glm::vec3(-1, 1, 0));
+    EXPECT_EQ(points[7], glm::vec3(1, 1, -2));
+}
+
+TEST(ViewVolume, PerspectiveTakesTheWholeVerticalAngle) {
+    double const pi = 3.14159265358979323846;
+    ViewVolume<double> const view = perspective_view(Pose<double>{}, pi / 2, 2.0, 1.0, 10.0);
+    EXPECT_NEAR(view.top, 1.0, 1e-15);
+    EXPECT_NEAR(view.right, 2.0, 2e-15);
+    EXPECT_EQ(view.left, -view.right);
+    EXPECT_EQ(view.bottom, -view.top);
+}
+
+TEST(ViewVolume, IsReadFromEveryKindOfProjectionMatrix) {
+    EXPECT_TRUE(reads_back_from_every_projection(off_centre()));
+    ViewVolume<double> flat = off_centre();
+    flat.kind = ViewKind::orthographic;
+    EXPECT_TRUE(reads_back_from_every_projection(flat));
+}
+
+TEST(ViewVolume, IsReadFromGlmsPerspectiveFunctions) {
+    ViewVolume<float> const view = perspective_view(Pose<float>{}, 1.0f, 1.5f, 0.1f, 1000.0f);
+    for (glm::mat4 const& clip_from_view :
+         {glm::perspectiveRH_ZO(1.0f, 1.5f, 0.1f, 1000.0f), glm::perspectiveRH_NO(1.0f, 1.5f, 0.1f, 1000.0f),
+          glm::perspectiveLH_ZO(1.0f, 1.5f, 0.1f, 1000.0f), glm::perspectiveRH_ZO(1.0f, 1.5f, 1000.0f, 0.1f),
+          glm::infinitePerspectiveRH(1.0f, 1.5f, 0.1f), glm::infinitePerspectiveLH(1.0f, 1.5f, 0.1f)})
+        EXPECT_TRUE(laws::has_the_sides_of(read_back(view, clip_from_view), view));
+}
+
+TEST(ViewVolume, TheEyesMatrixIsGlmsForTheDefaultPose) {
+    // The default pose looks along -z as OpenGL's eye does, so the view matrix is the identity.
+    ViewVolume<double> const view = off_centre();
+    glm::dmat4 const wanted = projection_of(view, Hand::right, Depth::minus_one_to_one, false);
+    glm::dmat4 const made = clip_from_world(view, gl_clip);
+    for (int column = 0; column < 4; ++column)
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(made[column][r], wanted[column][r], 1e-14) << column << " " << r;
+}
+
+TEST(ViewVolume, AnInfiniteFarIsExact) {
+    ViewVolume<double> view = off_centre();
+    view.z_far = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(faults_of(view).any());
+    glm::dmat4 const endless = clip_from_world(view, vulkan_clip);
+    EXPECT_TRUE(all_finite(endless));
+    glm::dvec4 const at_near = endless * glm::dvec4(0, 0, -view.z_near, 1);
+    glm::dvec4 const at_1e9 = endless * glm::dvec4(0, 0, -1e9, 1);
+    EXPECT_EQ(at_near.z, 0.0);
+    EXPECT_EQ(at_1e9.z / at_1e9.w, (1e9 - view.z_near) / 1e9);
+    EXPECT_EQ(clip_from_world(view, reversed(d3d_clip))[3][2], view.z_near) << "reversed infinite: z = n, w = depth";
+}
+
+TEST(ViewVolume, DepthGrowsAlongForwardInAMirroredWorldToo) {
+    ViewVolume<double> view = off_centre();
+    view.pose.right = glm::dvec3(-1, 0, 0);
+    EXPECT_FALSE(faults_of(view).any());
+    EXPECT_EQ(eye_depth(view, glm::dvec3(3, 4, -7)), 7.0);
+    EXPECT_TRUE(laws::fills_the_clip_volume(view, vulkan_clip));
+    EXPECT_EQ(orthonormalized(view.pose).up, view.pose.up) << "a mirrored pose stays mirrored";
+}
+
+TEST(ViewVolume, FloatCornersAtAFarDistanceOfAMillionAreStillThere) {
+    Pose<float> const pose = pose_looking(glm::vec3(100, 2, -50), glm::vec3(1, -0.2f, 0.3f), glm::vec3(0, 1, 0));
+    EXPECT_TRUE(laws::has_accurate_corners(perspective_view(pose, 1.0f, 1.7f, 0.1f, 1e5f)));
+    EXPECT_TRUE(laws::has_accurate_corners(perspective_view(pose, 1.0f, 1.7f, 1e-3f, 1e6f)));
+}
+
+TEST(Pose, LooksAlongItsForwardAxisWithUpAboveTheHorizon) {
+    Pose<double> const pose = pose_looking(glm::dvec3(1, 2, 3), glm::dvec3(0, 0, -5), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(pose.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(pose.forward, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(pose.right, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(pose.up, glm::dvec3(0, 1, 0));
+}
+
+TEST(Pose, IsMendedWhenItsAxesAreOrthonormalToOneInAThousand) {
+    Pose<float> pose = pose_looking(glm::vec3(0), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0));
+    pose.right += glm::vec3(4e-4f, -3e-4f, 2e-4f);
+    pose.up *= 1.0004f;
+    EXPECT_FALSE(laws::is_orthonormal(pose));
+    EXPECT_TRUE(laws::is_orthonormal(orthonormalized(pose)));
+}
