@@ -78,7 +78,7 @@ private:
 
     // Slabs of slightly different height and tone, with open joints.
     void add_paving() {
-        double const slab = detail_ == 0 ? 4.0 : detail_ == 1 ? 2.0 : 1.0;
+        double const slab = detail_ == 0 ? 4.0 : detail_ == 1 ? 2.0 : 0.75;
         static std::array const tones{srgb(0xD9C8A5), srgb(0xCDBB98), srgb(0xE0D2B4), srgb(0xC7B18C)};
         mesh_.frame = {};
         mesh_.colour = srgb(0x8A7A62);
@@ -151,7 +151,7 @@ private:
         mesh_.end_object();
 
         mesh_.colour = srgb(0xC98F6B);
-        mesh_.box({-end, -0.5, z + gallery + 1.0}, {end, beam_y + 1.5, z + gallery + 1.6});
+        mesh_.box({-end, -0.5, z + gallery + 1.0}, {end, beam_y + 3.58, z + gallery + 1.6});
         mesh_.colour = srgb(0x8D4A38);
         mesh_.box({-end, platform - 0.1, z + gallery + 0.96}, {end, platform + 1.1, z + gallery + 1.05});
         mesh_.end_object();
@@ -170,7 +170,7 @@ private:
             mesh_.colour = srgb(0xA85A40);
             mesh_.hexahedron({glm::dvec3(-half, y(low) - 0.06, low), {half, y(low) - 0.06, low}, {-half, y(low) + 0.10, low}, {half, y(low) + 0.10, low},
                               {-half, y(high) - 0.06, high}, {half, y(high) - 0.06, high}, {-half, y(high) + 0.10, high}, {half, y(high) + 0.10, high}});
-            int const rows = static_cast<int>(half * (detail_ == 0 ? 0.8 : detail_ == 1 ? 2.4 : 3.4));
+            int const rows = static_cast<int>(half * (detail_ == 0 ? 0.5 : detail_ == 1 ? 2.4 : 3.4));
             for (int i = 0; i <= rows; ++i) {
                 double const x = -half + 0.15 + (2.0 * half - 0.3) * i / rows;
                 mesh_.colour = tinted(srgb(0xB9684A), random_, 0.14);
@@ -266,7 +266,7 @@ private:
             glm::dvec3 const b{x + slant, high, court_z + 0.6};
             mesh_.colour = srgb(0x3A352E);
             add_wire(mesh_, a, b, 1.6, 0.012, segments, 5);
-            int const lanterns = 9;
+            int const lanterns = 7 + detail_;
             for (int k = 1; k < lanterns; ++k) {
                 double const t = static_cast<double>(k) / lanterns;
                 mesh_.frame = standing_at(a + (b - a) * t - glm::dvec3(0.0, 4.0 * 1.6 * t * (1.0 - t) + 0.42, 0.0));
@@ -333,8 +333,8 @@ private:
         spot.spot_half_angle_radians = 0.62;
         spot.spot_range = 40.0;
         return {
-            view_toward("street", {26.0, 1.7, 9.5}, {-14.0, 4.2, -5.0}, 60.0, 110.0, sun_travel(35.0, 110.0)),
-            view_toward("hill", {-50.0, 24.0, 36.0}, {4.0, 1.0, -2.0}, 48.0, 120.0, sun_travel(35.0, 145.0)),
+            view_toward("street", {28.0, 1.75, -6.5}, {-12.0, 4.0, 3.5}, 60.0, 110.0, sun_travel(35.0, 110.0)),
+            view_toward("hill", {-54.0, 24.0, 15.0}, {0.0, 0.0, -1.0}, 46.0, 120.0, sun_travel(35.0, 145.0)),
             view_toward("down", {14.0, 27.0, 17.0}, {0.0, 0.0, -1.0}, 52.0, 80.0, sun_travel(60.0, 40.0)),
             view_toward("up", {-16.0, 1.5, -15.2}, {-9.0, 7.4, -22.0}, 66.0, 80.0, sun_travel(35.0, 70.0)),
             view_toward("low_sun", {25.0, 1.8, -1.5}, {-30.0, 3.2, 0.5}, 56.0, 100.0, sun_travel(12.0, 176.0)),

@@ -8,15 +8,15 @@ namespace shadowmath::scenes {
 void add_column(MeshBuilder& mesh, Random& random, double height, int detail, double standing) {
     double const r = height / 18.0;
     double const plinth = 1.32 * r;
-    Ring const round = circle(12 + 12 * detail);
-    Ring const shaft = detail == 0 ? circle(14) : fluted(20, 2 * detail, 0.075);
+    Ring const round = circle(8 + 14 * detail);
+    Ring const shaft = detail == 0 ? circle(12) : fluted(20, 1 + 2 * detail, 0.075);
     mesh.box({-plinth, -0.3, -plinth}, {plinth, 0.35 * r, plinth});
     mesh.lathe({{1.30 * r, 0.34 * r}, {1.34 * r, 0.48 * r}, {1.28 * r, 0.62 * r}, {1.10 * r, 0.68 * r}, {1.12 * r, 0.80 * r},
                 {1.16 * r, 0.88 * r}, {1.00 * r, 0.98 * r}},
                round);
     double const foot = 0.95 * r;
     double const neck = (height - 1.3 * r) * standing;
-    int const drums = 2 + 2 * detail;
+    int const drums = 2 + 2 * detail * detail;
     std::vector<ProfilePoint> profile;
     for (int i = 0; i <= drums; ++i) {
         double const t = static_cast<double>(i) / drums * standing;

@@ -27,7 +27,7 @@ public:
     }
 
 private:
-    static constexpr double clearing_radius = 11.0;
+    static constexpr double clearing_radius = 8.0;
 
     // The path winds along z through the clearing at the origin.
     [[nodiscard]] static double path_x(double z) { return 5.0 * std::sin(z / 17.0) * (1.0 - std::exp(-z * z / 300.0)); }
@@ -47,7 +47,7 @@ private:
     void stand(double x, double z, double yaw, double lift = 0.0) { mesh_.frame = standing_at({x, land(x, z) + lift, z}, yaw); }
 
     void add_land() {
-        int const cells = detail_ == 0 ? 56 : detail_ == 1 ? 112 : 280;
+        int const cells = detail_ == 0 ? 56 : detail_ == 1 ? 98 : 280;
         int const tiles = 7;
         int const per_tile = cells / tiles;
         auto const colour = [&](glm::dvec3 p) {
@@ -81,9 +81,9 @@ private:
 
     // Trees keep a distance to each other, to the path and to the clearing; a few pines stand among them.
     void add_trees() {
-        int const wanted = detail_ == 0 ? 75 : detail_ == 1 ? 150 : 230;
-        int const leaves = detail_ == 0 ? 55 : detail_ == 1 ? 150 : 1500;
-        double const apart = detail_ == 0 ? 7.5 : 5.5;
+        int const wanted = detail_ == 0 ? 80 : detail_ == 1 ? 170 : 260;
+        int const leaves = detail_ == 0 ? 60 : detail_ == 1 ? 130 : 1350;
+        double const apart = detail_ == 0 ? 5.2 : 4.0;
         std::vector<glm::dvec2> standing;
         for (int tries = 0; tries < 40 * wanted && static_cast<int>(standing.size()) < wanted; ++tries) {
             double const x = random_.between(-land_edge + 3.0, land_edge - 3.0);
@@ -91,9 +91,10 @@ private:
             glm::dvec2 const here{x, z};
             bool const crowded = std::ranges::any_of(standing, [&](glm::dvec2 q) { return glm::length(q - here) < apart; });
             if (crowded || off_path(x, z) < 2.6 || std::hypot(x, z) < clearing_radius) continue;
+            if (random_.chance(0.85 * glm::smoothstep(22.0, 70.0, std::hypot(x, z)))) continue;  // denser where one looks
             standing.push_back(here);
             double const yaw = random_.between(0.0, 2.0 * pi);
-            double const height = random_.between(9.0, 16.0);
+            double const height = random_.between(10.0, 18.0);
             stand(x, z, yaw);
             if (random_.chance(0.2)) add_conifer(mesh_, random_, height * 1.15, detail_);
             else add_leafy_tree(mesh_, random_, height, leaves, detail_);
@@ -102,7 +103,7 @@ private:
     }
 
     void add_undergrowth() {
-        int const ferns = detail_ == 0 ? 120 : detail_ == 1 ? 700 : 3500;
+        int const ferns = detail_ == 0 ? 120 : detail_ == 1 ? 480 : 3000;
         for (int i = 0; i < ferns; ++i) {
             double const x = random_.between(-45.0, 45.0);
             double const z = random_.between(-45.0, 45.0);

@@ -37,7 +37,7 @@ void add_lamp_post(MeshBuilder& mesh, int detail) {
 void add_bollard(MeshBuilder& mesh, int detail) {
     mesh.colour = iron;
     mesh.lathe({{0.11, -0.2}, {0.11, 0.12}, {0.075, 0.18}, {0.065, 0.74}, {0.09, 0.78}, {0.07, 0.88}, {0.0, 0.92}},
-               circle(5 + 3 * detail));
+               circle(5 + 2 * detail));
 }
 
 void add_bench(MeshBuilder& mesh) {

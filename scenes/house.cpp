@@ -63,6 +63,17 @@ double add_gabled(MeshBuilder& mesh, Gabled const& g, glm::dvec3 wall, glm::dvec
     return ridge;
 }
 
+// A board on a wall, z outward: a box without the face that the wall hides.
+void add_board(MeshBuilder& mesh, glm::dvec2 lo, glm::dvec2 hi, double thickness) {
+    std::array const back{glm::dvec3(lo, 0.0), glm::dvec3(hi.x, lo.y, 0.0), glm::dvec3(hi, 0.0), glm::dvec3(lo.x, hi.y, 0.0)};
+    auto const front = [&](std::size_t i) { return back[i] + glm::dvec3(0.0, 0.0, thickness); };
+    mesh.quad(front(0), front(1), front(2), front(3));
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::size_t const next = (i + 1) % 4;
+        mesh.quad(back[i], back[next], front(next), front(i));
+    }
+}
+
 // In the frame of a wall, z outward: a window around x, its sill at y.
 void add_window(MeshBuilder& mesh, Paint const& paint, double x, double y, bool shutters, int detail) {
     double const w = 0.48;
@@ -71,18 +82,17 @@ void add_window(MeshBuilder& mesh, Paint const& paint, double x, double y, bool 
     mesh.quad({x - w, y, 0.05}, {x + w, y, 0.05}, {x + w, y + h, 0.05}, {x - w, y + h, 0.05});
     if (detail == 0) return;
     mesh.colour = paint.stone;
-    mesh.box({x - w - 0.12, y - 0.10, -0.05}, {x + w + 0.12, y, 0.16});
+    add_board(mesh, {x - w - 0.12, y - 0.10}, {x + w + 0.12, y}, 0.16);
     if (shutters) {
         mesh.colour = paint.shutter;
-        mesh.box({x - w - 0.50, y, -0.02}, {x - w - 0.03, y + h, 0.07});
-        mesh.box({x + w + 0.03, y, -0.02}, {x + w + 0.50, y + h, 0.07});
+        add_board(mesh, {x - w - 0.50, y}, {x - w - 0.03, y + h}, 0.07);
+        add_board(mesh, {x + w + 0.03, y}, {x + w + 0.50, y + h}, 0.07);
     }
     if (detail < 2) return;
     mesh.colour = paint.stone;
-    mesh.box({x - w - 0.08, y + h, -0.05}, {x + w + 0.08, y + h + 0.14, 0.11});
+    add_board(mesh, {x - w - 0.08, y + h}, {x + w + 0.08, y + h + 0.14}, 0.11);
     mesh.colour = srgb(0xEDE8DC);
-    mesh.box({x - 0.03, y, 0.0}, {x + 0.03, y + h, 0.08});
-    mesh.box({x - w, y + 0.62 * h, 0.0}, {x + w, y + 0.62 * h + 0.05, 0.075});
+    add_board(mesh, {x - 0.03, y}, {x + 0.03, y + h}, 0.08);
 }
 
 void add_chimney(MeshBuilder& mesh, Paint const& paint, glm::dvec3 foot, double top, int detail) {
@@ -171,12 +181,12 @@ void add_house(MeshBuilder& mesh, Random& random, HousePlan const& plan) {
     for (int storey = 0; storey < plan.storeys; ++storey)
         for (int bay = 0; bay < back_bays; ++bay) {
             double const x = (bay + 0.5) * plan.width / back_bays - half_width;
-            add_window(mesh, paint, x, sill(storey), false, std::min(plan.detail, 1));
+            add_window(mesh, paint, x, sill(storey), false, std::max(plan.detail - 1, 0));
         }
     for (double const side : {1.0, -1.0}) {
         mesh.frame = centre.moved({side * half_width, 0.0, 0.0}).turned(side * half_pi);
         for (int storey = plan.storeys - 1; storey >= (plan.detail > 1 ? 0 : plan.storeys - 1); --storey)
-            add_window(mesh, paint, 0.0, sill(storey), false, std::min(plan.detail, 1));
+            add_window(mesh, paint, 0.0, sill(storey), false, std::max(plan.detail - 1, 0));
     }
     mesh.frame = front;
 }

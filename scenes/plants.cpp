@@ -105,7 +105,7 @@ void add_bush(MeshBuilder& mesh, Random& random, double height, int detail) {
 }
 
 void add_leafy_tree(MeshBuilder& mesh, Random& random, double height, int leaves, int detail) {
-    int const sides = 6 + 3 * detail;
+    int const sides = 5 + 3 * detail;
     glm::dvec3 const wood = bark(random);
     mesh.colour = wood;
     double const radius = height * random.between(0.016, 0.026);
@@ -116,7 +116,7 @@ void add_leafy_tree(MeshBuilder& mesh, Random& random, double height, int leaves
         double size;
     };
     std::vector<Cluster> clusters{{top + glm::dvec3(0.0, height * 0.08, 0.0), height * 0.13}};
-    int const branches = 5 + 2 * detail;
+    int const branches = 5 + detail;
     for (int i = 0; i < branches; ++i) {
         double const t = 0.48 + 0.50 * i / branches;
         double const angle = 2.4 * i + random.between(-0.5, 0.5);
@@ -124,13 +124,13 @@ void add_leafy_tree(MeshBuilder& mesh, Random& random, double height, int leaves
         glm::dvec3 const from = glm::dvec3(top.x * t * t, top.y * t, top.z * t * t);
         glm::dvec3 const out{std::cos(angle) * reach, reach * random.between(0.35, 0.8), std::sin(angle) * reach};
         std::array const path{from, from + out * 0.5 + glm::dvec3(0.0, -0.06 * reach, 0.0), from + out};
-        mesh.tube(path, radius * 0.45, radius * 0.12, std::max(4, sides - 3));
-        clusters.push_back({from + out, height * random.between(0.09, 0.13)});
-        clusters.push_back({from + out * 0.6, height * random.between(0.06, 0.09)});
+        mesh.tube(path, radius * 0.45, radius * 0.12, std::max(3, sides - 4));
+        clusters.push_back({from + out, height * random.between(0.10, 0.14)});
+        clusters.push_back({from + out * 0.6, height * random.between(0.07, 0.10)});
     }
 
     // Fewer leaves are larger ones: the crown keeps its cover.
-    double const leaf = 0.5 * height * std::sqrt(0.40 / leaves);
+    double const leaf = 0.5 * height * std::sqrt(1.15 / leaves);
     glm::dvec3 const green = foliage(random);
     for (int i = 0; i < leaves; ++i) {
         Cluster const& cluster = random.pick(clusters);

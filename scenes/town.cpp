@@ -45,7 +45,7 @@ private:
         double const yaw = random_.between(0.0, 2.0 * pi);
         double const height = random_.between(5.0, 9.0);
         stand(u, v, yaw, lift);
-        add_broadleaf(mesh_, random_, height, detail_);
+        add_broadleaf(mesh_, random_, height, std::min(detail_, 1));
         mesh_.end_object();
     }
 
@@ -156,13 +156,13 @@ private:
                     add_lamp_post(mesh_, detail_);
                     mesh_.end_object();
                     for (double const end : {1.0, -1.0}) {
-                        for (int k = 0; k < 1 + detail_; ++k) {
+                        for (int k = 0; k < 1 + std::min(detail_, 1); ++k) {
                             stand(centre + end * (block_u - 1.3 * k), v, 0.0);
                             add_bollard(mesh_, detail_);
                         }
                         mesh_.end_object();
                     }
-                    if (std::max(std::abs(i), std::abs(j)) > detail_) continue;
+                    if (std::abs(i) >= std::max(detail_, 1)) continue;
                     mesh_.frame = {};
                     for (int k = 0; k < 2; ++k)
                         add_railing(mesh_, ground_.world(centre - 4.0 + 4.0 * k, v, TownGround::kerb),
@@ -204,7 +204,7 @@ private:
             add_house(mesh_, random_, plan);
             mesh_.end_object();
         }
-        int const groves = 14 + 14 * detail_;
+        int const groves = 8 + 18 * detail_;
         for (int g = 0; g < groves; ++g) {
             glm::dvec2 const centre = somewhere(25.0, 520.0);
             bool const conifers = random_.chance(0.45);
@@ -217,8 +217,8 @@ private:
                 glm::dvec2 const p = centre + glm::dvec2(du, dv);
                 if (on_road(p) || (std::abs(p.x) < ground_.half_u() + 8.0 && std::abs(p.y) < ground_.half_v() + 8.0)) continue;
                 stand(p.x, p.y, yaw, 0.0);
-                if (conifers) add_conifer(mesh_, random_, height * 1.25, std::max(detail_ - 1, 0));
-                else add_broadleaf(mesh_, random_, height, std::max(detail_ - 1, 0));
+                if (conifers) add_conifer(mesh_, random_, height * 1.25, 0);
+                else add_broadleaf(mesh_, random_, height, 0);
                 mesh_.end_object();
             }
         }
@@ -241,14 +241,14 @@ private:
         double const u = ground_.half_u();
         double const v = ground_.half_v();
         return {
-            view_toward("street", at(-30.0, street + 1.4, 1.7), at(20.0, street - 1.5, 3.4), 58.0, 180.0, sun_travel(35.0, 120.0)),
-            view_toward("square", at(-18.0, 15.5, 1.75), at(14.0, -2.0, 7.0), 62.0, 150.0, sun_travel(35.0, 165.0)),
+            view_toward("street", at(-30.0, street + 1.4, 1.7), at(20.0, street - 1.5, 3.4), 58.0, 180.0, sun_travel(24.0, 105.0)),
+            view_toward("square", at(-21.5, 9.0, 1.75), at(14.0, -3.0, 6.8), 62.0, 150.0, sun_travel(35.0, 165.0)),
             view_toward("hill", at(-u - 60.0, v + 62.0, 44.0), at(10.0, -10.0, 4.0), 46.0, 600.0, sun_travel(35.0, 20.0)),
             view_toward("down", at(-32.0, 32.0, 52.0), at(-4.0, -2.0, 0.0), 52.0, 200.0, sun_travel(60.0, 150.0)),
-            view_toward("up", at(24.0, -7.5, 1.6), at(38.0, 0.0, 16.5), 68.0, 160.0, sun_travel(35.0, 200.0)),
+            view_toward("up", at(27.5, -6.5, 1.6), at(38.5, 0.5, 14.0), 68.0, 160.0, sun_travel(35.0, 200.0)),
             view_toward("low_sun", at(-33.0, v + 44.0, 3.2), at(8.0, 0.0, 8.0), 54.0, 250.0, sun_travel(12.0, -72.0)),
-            view_toward("side", at(-27.5, -19.0, 1.75), at(-4.0, 20.0, 2.2), 60.0, 150.0, sun_travel(20.0, -4.0)),
-            view_toward("noon", at(-21.0, lane + 0.3, 9.0), at(26.0, lane + 21.0, 2.0), 56.0, 300.0, sun_travel(80.0, 40.0)),
+            view_toward("side", at(-22.5, 11.0, 1.75), at(20.0, 1.0, 5.0), 60.0, 150.0, sun_travel(20.0, -80.0)),
+            view_toward("noon", at(-20.0, lane - 3.6, 8.0), at(26.0, lane + 9.0, 2.6), 56.0, 300.0, sun_travel(80.0, 40.0)),
         };
     }
 

@@ -40,7 +40,7 @@ install_packages() {
         fi
     fi
     printf 'Installing %s (takes a minute or two)\n' "${missing[*]}"
-    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes LC_ALL=C.UTF-8
         apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0)
     "${apt[@]}" update < /dev/null || printf 'apt-get update failed; going on with the lists that are there\n' >&2
     "${apt[@]}" install -y --no-install-recommends "${missing[@]}" < /dev/null > /dev/null || {

@@ -3,13 +3,15 @@
 
 #include "examples/gallery/svg.hpp"
 
+#include <shadowmath/aliasing.hpp>
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/splits.hpp>
 
-#include <glm/vec2.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace shadowmath::gallery {
@@ -57,11 +59,11 @@ glm::dmat4 overhead_map(double begin, double end, double centre) {
 // toward eye and light, where no projection aliasing comes in.
 double measured_aliasing(glm::dmat4 const& map_clip_from_world, double z) {
     glm::dmat4 const eye_clip_from_world = from_rows<double>({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -1}, {0, 0, 1, 0});
-    constexpr double texels = 1024.0, pixels = 1024.0;
+    constexpr double texels = 1024.0, pixels = 1024.0;  // and tan(fov / 2) = 1
     glm::dvec3 const normal = glm::normalize(glm::dvec3(0.0, 1.0, -1.0));
     auto const texel = footprint(eye_clip_from_world, glm::dvec2(pixels), map_clip_from_world, texels,
                                  glm::dvec3(0.0, 0.0, z), normal);
-    return texel.major * texels / (pixels / 2.0);  // tan(fov / 2) is 1
+    return texel.major / closed_form::pixels_per_texel(pixels, 1.0, texels);
 }
 
 double mean(std::vector<double> const& values) {
@@ -100,7 +102,7 @@ std::string splits_chart() {
 
 std::string aliasing_chart() {
     double const endless = std::numeric_limits<double>::infinity();
-    double const best_centre = z_near + std::sqrt(z_near * z_far);
+    double const best_centre = closed_form::best_centre(z_near, z_far);
     struct Scheme {
         char const* name;
         char const* css_class;
@@ -131,26 +133,26 @@ std::string aliasing_chart() {
 
         auto const splits = practical_splits(z_near, z_far, scheme.lambda < 0.0 ? 1 : 4, std::max(scheme.lambda, 0.0));
         for (int i = 0; i < splits.count; ++i) {
-            double const n = splits.plane[i], f = splits.plane[i + 1], d = f - n, a = scheme.centre;
-            auto const closed_form = [=](double z) {
-                return std::isinf(a) ? d / z : d * (z - n + a) * (z - n + a) / (a * (a + d) * z);
+            double const n = splits.plane[i], f = splits.plane[i + 1], centre = scheme.centre;
+            auto const predicted = [=](double z) {
+                return std::isinf(centre) ? closed_form::uniform_along(z, n, f) : closed_form::warped_along(z, n, f, centre);
             };
-            glm::dmat4 const map = overhead_map(n, f, a);
+            glm::dmat4 const map = overhead_map(n, f, centre);
             Points curve;
             for (int k = 0; k <= 60; ++k) {
                 double const z = n * std::pow(f / n, k / 60.0);
-                curve.emplace_back(x.at(z), y.at(closed_form(z)));
+                curve.emplace_back(x.at(z), y.at(predicted(z)));
             }
             svg.polyline(curve, "curve " + css_class);
             int const dots = splits.count == 1 ? 12 : 4;
             for (int k = 0; k < dots; ++k) {
                 double const z = n * std::pow(f / n, (k + 0.5) / dots), e = measured_aliasing(map, z);
                 svg.dot(x.at(z), y.at(e), 3.2, "measured " + css_class,
-                        "at " + figure(z) + " m: measured " + figure(e) + ", closed form " + figure(closed_form(z)));
+                        "at " + figure(z) + " m: measured " + figure(e) + ", closed form " + figure(predicted(z)));
             }
         }
     }
-    double const best = std::log(z_far / z_near);
+    double const best = closed_form::logarithmic_along(z_near, z_far);
     svg.line(x.from_place, y.at(best), x.to_place, y.at(best), "bound");
     svg.text(x.from_place + 6, y.at(best) - 6, "start", "tick", "one logarithmic map, the optimum: ln(far/near) = " + figure(best));
     return svg.str();

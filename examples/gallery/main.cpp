@@ -16,6 +16,7 @@
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 namespace shadowmath::gallery {
 namespace {
@@ -49,9 +50,11 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
     std::string size;
     auto const names = scenes::scene_names();
     std::vector<std::string> const built_in(names.begin(), names.end());
-    app.add_option("obj", settings.models, "Wavefront OBJ models to show; without any, the built-in scenes");
-    app.add_option("--scene", settings.scenes, "a built-in scene to show, also beside models; may be repeated")
-        ->check(CLI::IsMember(built_in))
+    std::vector<std::string> choices = built_in;
+    choices.emplace_back("none");
+    app.add_option("obj", settings.models, "Wavefront OBJ models to show beside the built-in scenes");
+    app.add_option("--scene", settings.scenes, "a built-in scene to show, or none; may be repeated (default: all)")
+        ->check(CLI::IsMember(choices))
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_flag("--quick", settings.quick, "fewer views and techniques, smaller scenes and pictures");
@@ -73,8 +76,11 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
     }
     if (size.empty() && settings.quick) settings.extent = {640, 360};
     if (!size.empty()) parse_extent(size, settings.extent);
-    if (settings.models.empty() && settings.scenes.empty()) settings.scenes = built_in;
-    return std::nullopt;
+    if (settings.scenes.empty()) settings.scenes = built_in;
+    std::erase(settings.scenes, "none");
+    if (!settings.models.empty() || !settings.scenes.empty()) return std::nullopt;
+    std::cerr << "gallery: --scene none needs a model to show\n";
+    return 2;
 }
 
 std::vector<std::unique_ptr<backend::Backend>> open_backends(std::string const& wanted) {

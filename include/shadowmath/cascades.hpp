@@ -117,11 +117,14 @@ inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Ligh
     if (!depth.visible) return;
     sides.depth_lo = depth.lo;
     sides.depth_hi = depth.hi;
-    cascade.map.clip_from_world = options.fit == CascadeFit::stable
-                                      ? clip_from_world(grid, depth.lo, depth.hi, options.clip)
-                                      : clip_from_world(sides, options.clip);
-    Vec2<T> const texel = texel_metres(sides, options.map_size);
-    cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
+    if (options.fit == CascadeFit::stable) {
+        cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
+        cascade.texel_metres = grid.texel_metres;
+    } else {
+        cascade.map.clip_from_world = clip_from_world(sides, options.clip);
+        Vec2<T> const texel = texel_metres(sides, options.map_size);
+        cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
+    }
     cascade.depth_metres = depth.hi - depth.lo;
     cascade.map.visible = true;
 }

@@ -17,6 +17,7 @@
 #include <shadowmath/config.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/light_box.hpp>
+#include <shadowmath/reach.hpp>
 #include <shadowmath/view_volume.hpp>
 
 #include <array>
@@ -57,12 +58,6 @@ template <class T>
     return part;
 }
 
-template <class T>
-[[nodiscard]] inline T largest_coordinate(Aabb<T> const& box) noexcept {
-    Vec3<T> const size = glm::max(glm::abs(box.lo), glm::abs(box.hi));
-    return std::fmax(size.x, std::fmax(size.y, size.z));
-}
-
 // The six sides as planes whose positive half is inside.
 template <class T>
 [[nodiscard]] inline std::array<Vec4<T>, 6> inner_planes(ViewVolume<T> const& view) noexcept {
@@ -89,10 +84,10 @@ template <class T>
     constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
     Aabb<T> const around = merge(bounds_of(volume_corners), volume.pose.position);
     // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
-    T const reach = slack * detail::largest_coordinate(around);
+    T const reach = slack * detail::largest_of(around);
     Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
     if (is_empty(body)) return {};
-    T const largest = detail::largest_coordinate(merge(body, volume.pose.position)), rounding = slack * largest;
+    T const largest = detail::largest_of(merge(body, volume.pose.position)), rounding = slack * largest;
     DepthRange<T> range{volume.z_far, volume.z_near, false};
     auto const reaches = [&](Vec3<T> const& point) {
         T const depth = eye_depth(volume, point);
@@ -133,13 +128,12 @@ template <class T>
                                                Aabb<T> const& casters, Aabb<T> const& receivers,
                                                bool pancake) noexcept {
     DepthRange<T> const& slice = receivers_slice;
-    bool const finite = all_finite(sides.basis.x) && all_finite(sides.basis.y) && all_finite(sides.basis.depth) &&
-                        all_finite(sides.lo) && all_finite(sides.hi) && all_finite(&slice.lo, 1) &&
+    bool const finite = all_finite(sides.lo) && all_finite(sides.hi) && all_finite(&slice.lo, 1) &&
                         all_finite(&slice.hi, 1);
-    if (!finite || !slice.visible || !(slice.lo <= slice.hi)) return {};
+    if (!finite || !detail::has_unit_axes(sides.basis) || !slice.visible || !(slice.lo <= slice.hi)) return {};
     T largest = std::fmax(std::abs(slice.lo), std::abs(slice.hi));
     for (T const side : {sides.lo.x, sides.lo.y, sides.hi.x, sides.hi.y}) largest = std::fmax(largest, std::abs(side));
-    if (!(largest <= T(1e18))) return {};
+    if (!(largest <= detail::farthest_metres<T>)) return {};
     // Light space is an orthographic view from the world origin.
     ViewVolume<T> shaft = orthographic_view({Vec3<T>(T(0)), sides.basis.x, sides.basis.y, sides.basis.depth}, sides.lo.x,
                                             sides.hi.x, sides.lo.y, sides.hi.y, slice.lo, slice.hi);

@@ -77,9 +77,11 @@ struct Normalized {
 };
 
 // Unit to 2 ulp for every finite vector but the zero vector: nothing overflows, and a length of 1e-30 in float is as
-// good as one of 1. Dividing by the largest component first is what makes it so.
+// good as one of 1. Dividing by the largest component first is what makes it so. A vector with a NaN or an infinity in
+// it is as good as zero.
 template <class T>
 [[nodiscard]] inline Normalized<T> safe_normalize(Vec3<T> const& v) noexcept {
+    if (!all_finite(v)) return {};
     Vec3<T> const magnitude(std::abs(v.x), std::abs(v.y), std::abs(v.z));
     T largest = magnitude.x > magnitude.y ? magnitude.x : magnitude.y;
     largest = largest > magnitude.z ? largest : magnitude.z;

@@ -12,6 +12,7 @@
 #include <shadowmath/light.hpp>
 #include <shadowmath/light_box.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/reach.hpp>
 
 #include <array>
 #include <cmath>
@@ -35,23 +36,20 @@ inline void widen(T& lo, T& hi, T least) noexcept {
 
 // Each corner lies at least `margin_texels` texels inside the four sides, and some corner exactly so at each of them;
 // depth runs from the first corner to the last. A flat body is widened to a texel of its largest extent, and to what
-// the scalar type can tell apart. Corners that are not finite, or beyond 1e18 m, give the box [-1, 1]^2 x [0, 1]; a map
+// the scalar type can tell apart. Corners that are not finite or beyond 1e18 m, and axes that are not unit, give the box [-1, 1]^2 x [0, 1]; a map
 // without room for the margin (faults_of_margin) is treated as one with a single usable texel.
 template <class T>
 [[nodiscard]] inline LightBox<T> fit_box(LightBasis<T> const& basis, std::array<Vec3<T>, 8> const& corners_in_world,
                                          int map_size, T margin_texels) noexcept {
     LightBox<T> box;
-    if (!all_finite(basis.x) || !all_finite(basis.y) || !all_finite(basis.depth)) return box;
+    if (!detail::has_unit_axes(basis)) return box;
     Aabb<T> body;
     for (Vec3<T> const& corner : corners_in_world) {
-        Vec3<T> const size = glm::abs(corner);
-        if (!all_finite(corner) || !(size.x <= T(1e18) && size.y <= T(1e18) && size.z <= T(1e18))) return box;
+        if (!all_finite(corner) || !(detail::largest_of(corner) <= detail::farthest_metres<T>)) return box;
         body = merge(body, in_light(basis, corner));
     }
-    Vec3<T> const extent = body.hi - body.lo, magnitude = glm::max(glm::abs(body.lo), glm::abs(body.hi));
-    T const largest = std::fmax(extent.x, std::fmax(extent.y, extent.z));
-    T const distance = std::fmax(magnitude.x, std::fmax(magnitude.y, magnitude.z));
-    T const rounding = T(4) * std::numeric_limits<T>::epsilon() * distance;
+    T const largest = detail::largest_of(body.hi - body.lo);
+    T const rounding = T(4) * std::numeric_limits<T>::epsilon() * detail::largest_of(body);
     T const texels = map_size > 1 ? T(map_size) : T(1);
     // A micrometre: the one point at the origin has no scale of its own.
     T const least = std::fmax(std::fmax(largest / texels, rounding), T(1e-6));

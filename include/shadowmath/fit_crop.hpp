@@ -20,6 +20,7 @@
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/light.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/reach.hpp>
 #include <shadowmath/region.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/view_volume.hpp>
@@ -56,7 +57,7 @@ template <class T>
 [[nodiscard]] inline Mat4<T> crop_matrix(Aabb<T> const& box_in_ndc) noexcept {
     if (!all_finite(box_in_ndc) || is_empty(box_in_ndc)) return nowhere<T>();
     Aabb<T> box = box_in_ndc;
-    T const largest = std::fmax(detail::largest_coordinate(box), T(1));
+    T const largest = std::fmax(detail::largest_of(box), T(1));
     if (!(largest <= detail::farthest_metres<T>)) return nowhere<T>();
     for (int axis = 0; axis < 3; ++axis)
         detail::widen(box.lo[axis], box.hi[axis], T(8) * std::numeric_limits<T>::epsilon() * largest);
@@ -86,17 +87,6 @@ template <class T>
     return clip_from_world(spot_view(light, z_near), clip);
 }
 
-namespace detail {
-
-// The largest |coordinate| of the spot's volume, and with it every number that fit_spot makes, must stay finite.
-template <class T>
-[[nodiscard]] inline bool within_reach(Light<T> const& light) noexcept {
-    Vec3<T> const size = glm::abs(light.position);
-    return std::fmax(light.range * T(15), std::fmax(size.x, std::fmax(size.y, size.z))) <= farthest_metres<T>;
-}
-
-}  // namespace detail
-
 // The map of what the eye sees in this slice of the lit cone: every receiver there, with `margin_texels` texels to spare
 // on each side, and every caster between it and the light. Zooms in as far as slice and receivers allow, at most until
 // the whole cone would be map_size maps wide.
@@ -113,8 +103,10 @@ template <class T>
     map.faults = faults_of(slice) | faults_of(light) | faults_of_margin(map_size, margin_texels);
     if (light.kind != LightKind::spot) map.faults |= Fault::clamped_option;
     if (!all_finite(casters) || !all_finite(receivers)) map.faults |= Fault::not_finite;
+    // The far corners of the cone's pyramid: tan(1.5) is 14.1.
+    T const reach = std::fmax(T(20) * light.range, detail::largest_of(light.position));
     bool const usable = !map.faults.has(Fault::not_finite) && !map.faults.has(Fault::map_too_small) &&
-                        light.kind == LightKind::spot && !unusable(light) && detail::within_reach(light);
+                        light.kind == LightKind::spot && !unusable(light) && reach <= detail::farthest_metres<T>;
     if (!usable || is_empty(casters) || is_empty(receivers)) return map;
 
     // Beyond the end of the cone the eye sees nothing lit.

@@ -17,6 +17,7 @@
 
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/config.hpp>
+#include <shadowmath/reach.hpp>
 #include <shadowmath/view_volume.hpp>
 
 #include <array>
@@ -27,10 +28,6 @@ namespace shadowmath {
 inline namespace v0 {
 
 namespace detail {
-
-// Metres. Squares of what is nearer stay finite in float; a hundred light years.
-template <class T>
-inline constexpr T farthest_metres = T(1e18);
 
 // The smallest ball of eight points that lie within a few units of the origin.
 // It is the circumsphere of two, three or four of them. Any centre is good with the radius that it needs, so the least
@@ -98,10 +95,9 @@ template <class T>
     if (faults_of(slice).any() || is_positive_infinity(&slice.z_far)) return {};
     bool const flat = slice.kind == ViewKind::orthographic;
     Vec3<T> const &p = slice.pose.position, &f = slice.pose.forward, &r = slice.pose.right, &u = slice.pose.up;
-    T side = T(0), away = slice.z_far;
-    for (T const value : {slice.left, slice.right, slice.bottom, slice.top}) side = std::fmax(side, std::abs(value));
-    for (T const value : {p.x, p.y, p.z}) away = std::fmax(away, std::abs(value));
-    if (!(away <= detail::farthest_metres<T>) || !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
+    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
+                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) || !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
         (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
         return {};
     T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;

@@ -18,8 +18,8 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// Six faces to begin with and up to sixteen cuts: a polyhedron of f faces has at most 3 f - 6 edges.
-inline constexpr int max_body_faces = 22;
+// Six faces to begin with and up to eighteen cuts: a polyhedron of f faces has at most 3 f - 6 edges.
+inline constexpr int max_body_faces = 24;
 inline constexpr int max_body_edges = 3 * max_body_faces - 6;
 
 template <class T>
@@ -65,8 +65,9 @@ inline void for_each_vertex(ConvexBody<T> const& body, Visit&& visit) noexcept {
 // or outside, the same for all its edges.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> clipped(ConvexBody<T> const& body, Vec4<T> const& half_space) noexcept {
-    ConvexBody<T> kept;
+    SHADOWMATH_ASSERT(body.face_count < max_body_faces, "a convex body was cut too often");
     if (body.face_count >= max_body_faces) return body;
+    ConvexBody<T> kept;
     auto const add = [&kept](typename ConvexBody<T>::Edge const& edge) {
         if (kept.edge_count < max_body_edges) kept.edges[static_cast<unsigned>(kept.edge_count++)] = edge;
     };

@@ -25,6 +25,7 @@
 #include <shadowmath/light.hpp>
 #include <shadowmath/light_box.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/reach.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -51,10 +52,10 @@ template <class T>
                                              T margin_texels) noexcept {
     TexelGrid<T> grid;
     grid.faults = faults_of_margin(map_size, margin_texels);
-    if (!all_finite(basis.x) || !all_finite(basis.y) || !all_finite(basis.depth) || !all_finite(sphere.center) ||
-        !all_finite(&sphere.radius, 1))
-        grid.faults |= Fault::not_finite;
-    if (grid.faults.has(Fault::not_finite) || grid.faults.has(Fault::map_too_small) || !(sphere.radius > T(0)))
+    if (!all_finite(sphere.center) || !all_finite(&sphere.radius, 1)) grid.faults |= Fault::not_finite;
+    if (!detail::has_unit_axes(basis)) grid.faults |= Fault::bad_pose;
+    if (grid.faults.has(Fault::not_finite) || grid.faults.has(Fault::map_too_small) ||
+        grid.faults.has(Fault::bad_pose) || !(sphere.radius > T(0)))
         return grid;
     constexpr T eps = std::numeric_limits<T>::epsilon();
     // Up by the roundings of this line and of the window's own extent.
@@ -70,7 +71,8 @@ template <class T>
     // Four roundings of a coordinate lie between a world point and its texel: 2^-6 / 4.
     if (!(reach * Exact(eps) <= Exact(1) / 256)) grid.faults |= Fault::precision_lost;
     constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
-    if (!(reach < whole_numbers) || !(texel > T(0))) return grid;
+    if (!(reach < whole_numbers) || !(texel >= detail::least_metres<T>) || !(sphere.radius <= detail::farthest_metres<T>))
+        return grid;
     grid.basis = basis;
     grid.x = static_cast<std::int64_t>(x);
     grid.y = static_cast<std::int64_t>(y);
@@ -96,7 +98,9 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(TexelGrid<T> const& grid, T const& depth_lo, T const& depth_hi,
                                              ClipSpace clip) noexcept {
-    if (!grid.visible || !all_finite(&depth_lo, 1) || !all_finite(&depth_hi, 1) || !(depth_lo < depth_hi))
+    bool const finite = all_finite(&depth_lo, 1) && all_finite(&depth_hi, 1);
+    if (!grid.visible || !finite || !(std::fmax(std::abs(depth_lo), std::abs(depth_hi)) <= T(1e24)) ||
+        !(depth_hi - depth_lo >= detail::least_metres<T>))
         return nowhere<T>();
     using Exact = decltype(T() + double());
     Exact const size = Exact(grid.map_size);

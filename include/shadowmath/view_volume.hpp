@@ -49,8 +49,9 @@ struct ViewVolume {
     ViewKind kind = ViewKind::perspective;
 };
 
-// Looks from `position` along `forward`; `rough_up` only chooses the roll. Orthonormal for every finite input: where
-// forward is (nearly) parallel to rough_up, the world axis least along forward takes its place.
+// Looks from `position` along `forward`; `rough_up` only chooses the roll. Orthonormal for every input: where
+// forward is (nearly) parallel to rough_up, the world axis least along forward takes its place; a forward that is zero or not
+// finite becomes -z.
 template <class T>
 [[nodiscard]] inline Pose<T> pose_looking(Vec3<T> const& position, Vec3<T> const& forward,
                                           Vec3<T> const& rough_up) noexcept {
@@ -66,7 +67,8 @@ template <class T>
         axis[a.x <= a.y && a.x <= a.z ? 0 : (a.y <= a.z ? 1 : 2)] = T(1);
         side = safe_normalize(glm::cross(pose.forward, axis));
     }
-    pose.right = side.direction;
+    // The shorter the cross product, the less of it is orthogonal; a second look along it makes up for that.
+    pose.right = safe_normalize(side.direction - pose.forward * glm::dot(pose.forward, side.direction)).direction;
     pose.up = glm::cross(pose.right, pose.forward);
     return pose;
 }
@@ -167,8 +169,9 @@ template <class T>
            view.pose.up * (side_y * spread);
 }
 
-// The eight corners, each within 4 ulp of max(far, |position|). Bit 0 of the index chooses right, bit 1 top, bit 2 far;
-// two corners share an edge when their indices differ in one bit. z_far must be finite.
+// The eight corners, each within 4 ulp of the larger of two ways: eye to corner, origin to eye. Bit 0 of the index
+// chooses right, bit 1 top, bit 2 far; two corners share an edge when their indices differ in one bit. z_far must be
+// finite.
 template <class T>
 [[nodiscard]] inline std::array<Vec3<T>, 8> corners(ViewVolume<T> const& view) noexcept {
     return {point_at(view, view.left, view.bottom, view.z_near), point_at(view, view.right, view.bottom, view.z_near),
@@ -184,9 +187,11 @@ template <class T>
 }
 
 // The eye's own matrix, for drawing the receivers and for measuring footprints. Written by rows: right, up and depth of
-// a point against the pose, so that no handedness enters. An infinite z_far is exact.
+// a point against the pose, so that no handedness enters. An infinite z_far is exact. A view with faults, or too far from
+// the origin for its scalar type, sees nothing.
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(ViewVolume<T> const& view, ClipSpace clip) noexcept {
+    if (faults_of(view).any()) return nowhere<T>();
     Pose<T> const& pose = view.pose;
     auto const plane = [&pose](Vec3<T> const& axis) { return Vec4<T>(axis, -glm::dot(axis, pose.position)); };
     Vec4<T> const x = plane(pose.right), y = plane(pose.up), depth = plane(pose.forward);
@@ -201,7 +206,7 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(T(2) / width * x - (view.right + view.left) / width * w,
                   T(2) / height * y - (view.top + view.bottom) / height * w, scale * (depth - n * one), w);
-    return clip_from_canonical<T>(clip) * canonical;
+    return all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
 }
 
 }  // namespace v0

@@ -79,4 +79,19 @@ private:
     }
 };
 
+// Draws every map of the frame with all objects, then the frame.
+inline Frame draw_quad_over_floor(Backend& backend, QuadOverFloor const& world, ScenePass const& pass) {
+    std::array<std::uint32_t, 2> const both{QuadOverFloor::floor, QuadOverFloor::quad};
+    std::array<DepthLayer, max_maps> layers;
+    for (int i = 0; i < pass.frame.map_count; ++i)
+        layers[std::size_t(i)] = {pass.frame.maps[std::size_t(i)].clip_from_world, both};
+    backend.upload(world.scene);
+    backend.draw_depth({int(pass.frame.map_size), {layers.data(), std::size_t(pass.frame.map_count)}, true});
+    backend.draw_scene(pass);
+    return backend.read_frame();
+}
+
+[[nodiscard]] inline bool is_sky(Texel4 const& position) { return position.w == -2.0f; }
+[[nodiscard]] inline bool is_floor(Texel4 const& position) { return !is_sky(position) && position.y < 0.5f; }
+
 }  // namespace shadowmath::image_test

@@ -30,10 +30,10 @@ template <class T>
         clip_from_view = make(view.left, view.right, view.bottom, view.top, first, second);
     } else {
         // frustum wants its sides where its first distance is; the sides enter divided by it again.
-        auto const make = hand == Hand::right ? (full ? glm::frustumRH_NO<T> : glm::frustumRH_ZO<T>)
-                                              : (full ? glm::frustumLH_NO<T> : glm::frustumLH_ZO<T>);
-        clip_from_view =
-            make(view.left * first, view.right * first, view.bottom * first, view.top * first, first, second);
+        // NOTE: glm 0.9.9.8's frustumLH has the wrong sign in its third column: off-centre, it does not mirror frustumRH.
+        clip_from_view = (full ? glm::frustumRH_NO<T> : glm::frustumRH_ZO<T>)(
+            view.left * first, view.right * first, view.bottom * first, view.top * first, first, second);
+        if (hand == Hand::left) clip_from_view[2] = -clip_from_view[2];
         T const h = hand == Hand::right ? T(-1) : T(1);
         if (depth == Depth::endless) {
             clip_from_view[2][2] = h;

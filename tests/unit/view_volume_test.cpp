@@ -28,12 +28,7 @@ bool reads_back_from_every_projection(ViewVolume<T> const& view) {
             for (bool const y_flipped : {false, true}) {
                 if (flat && (depth == Depth::endless || depth == Depth::reversed_endless)) continue;
                 Mat4<T> const clip_from_view = projection_of(view, hand, depth, y_flipped);
-                ViewVolume<T> expected = view;
-                if (y_flipped) {
-                    expected.bottom = view.bottom;
-                    expected.top = view.top;
-                }
-                if (!laws::has_the_sides_of(read_back(view, clip_from_view), expected)) return false;
+                if (!laws::has_the_sides_of(read_back(view, clip_from_view), view)) return false;
             }
     return true;
 }

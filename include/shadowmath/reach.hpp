@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+//
+// How far numbers may reach before arithmetic on them leaves the range of float: the one limit of all fits. What lies
+// beyond is not visible; boxes alone may be larger, since they are cut to what is in reach first.
+#pragma once
+
+#include <shadowmath/bounds.hpp>
+#include <shadowmath/config.hpp>
+#include <shadowmath/light.hpp>
+
+#include <cmath>
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Metres: a hundred light years. Squares stay finite in float.
+template <class T>
+inline constexpr T farthest_metres = T(1e18);
+
+// Its inverse: lengths below have reciprocals that are too large.
+template <class T>
+inline constexpr T least_metres = T(1e-18);
+
+template <class T>
+[[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
+    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
+}
+
+template <class T>
+[[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
+    return std::fmax(largest_of(box.lo), largest_of(box.hi));
+}
+
+// Unit to a thousandth, as light_basis makes them for every light that is usable.
+template <class T>
+[[nodiscard]] inline bool has_unit_axes(LightBasis<T> const& basis) noexcept {
+    auto const is_unit = [](Vec3<T> const& axis) {
+        return all_finite(axis) && largest_of(axis) < T(2) && std::abs(glm::dot(axis, axis) - T(1)) <= T(1e-3);
+    };
+    return is_unit(basis.x) && is_unit(basis.y) && is_unit(basis.depth);
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/cascades.hpp"
+#include "tests/support/watched.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+template <class T>
+class CascadesOf : public ::testing::Test {
+protected:
+    ViewVolume<T> view = perspective_view(Pose<T>{Vec3<T>(T(3), T(1.7), T(-2))}, T(1), T(1.6), T(0.1), T(400));
+    Light<T> sun = directional(Vec3<T>(T(0.3), T(-1), T(0.2)));
+    Aabb<T> world{Vec3<T>(T(-500), T(-5), T(-500)), Vec3<T>(T(500), T(40), T(500))};
+    CascadeOptions<T> options;
+
+    [[nodiscard]] Cascades<T> fitted() const { return fit_cascades(view, sun, world, world, options); }
+};
+
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(CascadesOf, Scalars);
+
+TYPED_TEST(CascadesOf, DefaultsGiveFourVisibleMapsWithoutAFault) {
+    auto const cascades = this->fitted();
+    ASSERT_EQ(cascades.count, 4);
+    EXPECT_FALSE(cascades.faults.any()) << describe(cascades.faults);
+    EXPECT_TRUE(laws::well_formed(cascades));
+    for (auto const& c : cascades) {
+        EXPECT_TRUE(c.map.visible);
+        EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+    }
+    EXPECT_EQ(cascades.at[0].range.begin, this->view.z_near);
+    EXPECT_EQ(cascades.at[3].range.end, this->view.z_far);
+}
+
+TYPED_TEST(CascadesOf, EachMapIsCoarserThanTheOneBefore) {
+    auto const cascades = this->fitted();
+    for (int i = 1; i < cascades.count; ++i)
+        EXPECT_GT(cascades.at[i].texel_metres, cascades.at[i - 1].texel_metres);
+}
+
+TYPED_TEST(CascadesOf, TightMapsHaveSmallerTexelsThanStableOnes) {
+    auto const stable = this->fitted();
+    this->options.fit = CascadeFit::tight;
+    auto const tight = this->fitted();
+    for (int i = 0; i < stable.count; ++i) EXPECT_LT(tight.at[i].texel_metres, stable.at[i].texel_metres);
+}
+
+TYPED_TEST(CascadesOf, NothingFollowsTheShadowDistance) {
+    this->options.shadow_distance = TypeParam(120);
+    auto const cascades = this->fitted();
+    EXPECT_EQ(cascades.at[cascades.count - 1].range.end, TypeParam(120));
+    EXPECT_FALSE(cascades.faults.any());
+}
+
+TYPED_TEST(CascadesOf, AnEndlessViewNeedsAShadowDistance) {
+    this->view.z_far = std::numeric_limits<TypeParam>::infinity();
+    auto const cut = this->fitted();
+    EXPECT_TRUE(cut.faults.has(Fault::far_clamped));
+    EXPECT_EQ(cut.at[cut.count - 1].range.end, TypeParam(1000));
+    this->options.shadow_distance = TypeParam(250);
+    auto const given = this->fitted();
+    EXPECT_FALSE(given.faults.any());
+    EXPECT_EQ(given.at[given.count - 1].range.end, TypeParam(250));
+}
+
+TYPED_TEST(CascadesOf, APinnedFirstSplitEndsWhereItIsPinned) {
+    this->options.first_split_end = TypeParam(2);
+    EXPECT_EQ(this->fitted().at[0].range.end, TypeParam(2));
+}
+
+TYPED_TEST(CascadesOf, NoCastersOrNoReceiversIsNoFault) {
+    for (bool const casters : {true, false}) {
+        Aabb<TypeParam> const empty;
+        auto const cascades = fit_cascades(this->view, this->sun, casters ? empty : this->world,
+                                           casters ? this->world : empty, this->options);
+        EXPECT_FALSE(cascades.faults.any());
+        for (auto const& c : cascades) {
+            EXPECT_FALSE(c.map.visible);
+            EXPECT_TRUE(laws::harmless(c.map));
+        }
+    }
+}
+
+TYPED_TEST(CascadesOf, ANoonSunAndALookStraightDownAreOrdinary) {
+    using T = TypeParam;
+    this->sun = directional(Vec3<T>(T(0), T(-1), T(0)));
+    this->view.pose = pose_looking(Vec3<T>(T(0), T(30), T(0)), Vec3<T>(T(0), T(-1), T(0)), Vec3<T>(T(0), T(1), T(0)));
+    auto const cascades = this->fitted();
+    EXPECT_FALSE(cascades.faults.any());
+    EXPECT_TRUE(cascades.at[0].map.visible);
+    for (auto const& c : cascades) {
+        // The ground is 35 m down: what is cut off behind it has nothing to see.
+        EXPECT_EQ(c.map.visible, c.range.begin < T(35));
+        if (c.map.visible) {
+            EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+        }
+    }
+}
+
+TYPED_TEST(CascadesOf, CountsOutsideTheCapacityAreClamped) {
+    this->options.count = 0;
+    EXPECT_EQ(this->fitted().count, 0);
+    EXPECT_FALSE(this->fitted().faults.any());
+    this->options.count = 1;
+    EXPECT_EQ(this->fitted().count, 1);
+    EXPECT_EQ(this->fitted().at[0].range.end, this->view.z_far);
+    this->options.count = 1000;
+    EXPECT_EQ(this->fitted().count, max_splits);
+    EXPECT_TRUE(this->fitted().faults.has(Fault::count_clamped));
+    this->options.count = -3;
+    EXPECT_EQ(this->fitted().count, 0);
+    EXPECT_TRUE(this->fitted().faults.has(Fault::count_clamped));
+}
+
+TYPED_TEST(CascadesOf, MapsWithoutRoomForTheFilterAreRefused) {
+    for (int const size : {-5, 0, 1, 4}) {
+        this->options.map_size = size;
+        auto const cascades = this->fitted();
+        EXPECT_TRUE(cascades.faults.has(Fault::map_too_small)) << size;
+        for (auto const& c : cascades) EXPECT_FALSE(c.map.visible) << size;
+    }
+    this->options.map_size = 1000;  // no power of two
+    EXPECT_FALSE(this->fitted().faults.any());
+}
+
+TYPED_TEST(CascadesOf, OptionsOutsideTheirRangesAreClampedAndSaid) {
+    using T = TypeParam;
+    for (T const bad : {T(-1), T(7), std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
+        for (T CascadeOptions<T>::*option : {&CascadeOptions<T>::lambda, &CascadeOptions<T>::blend}) {
+            CascadeOptions<T> options;
+            options.*option = bad;
+            auto const cascades = fit_cascades(this->view, this->sun, this->world, this->world, options);
+            EXPECT_TRUE(cascades.faults.has(Fault::clamped_option));
+            EXPECT_TRUE(laws::well_formed(cascades));
+            EXPECT_TRUE(cascades.count == 4 && cascades.at[0].map.visible);
+        }
+    }
+    this->options.filter_radius = 1000000000;
+    EXPECT_TRUE(this->fitted().faults.has(Fault::clamped_option));
+    EXPECT_TRUE(this->fitted().at[0].map.visible);
+}
+
+TYPED_TEST(CascadesOf, AMessyPoseWithinAThousandthIsMended) {
+    using T = TypeParam;
+    auto const clean = this->fitted();
+    this->view.pose.right *= T(1.0003);
+    this->view.pose.up += this->view.pose.forward * T(2e-4);
+    auto const mended = this->fitted();
+    EXPECT_FALSE(mended.faults.any());
+    EXPECT_TRUE(laws::is_map_of(mended.at[0].map.clip_from_world, this->sun, this->options.clip));
+    EXPECT_EQ(mended.at[0].texel_metres, clean.at[0].texel_metres);
+    this->view.pose.right *= T(2);
+    EXPECT_TRUE(this->fitted().faults.has(Fault::bad_pose));
+    EXPECT_EQ(this->fitted().count, 0);
+}
+
+TYPED_TEST(CascadesOf, ASpotGetsAMapInEachSliceThatItsConeReaches) {
+    using T = TypeParam;
+    Light<T> const lamp = spot(Vec3<T>(T(3), T(8), T(-15)), Vec3<T>(T(0), T(-1), T(0)), T(0.6), T(20));
+    auto const cascades = fit_cascades(this->view, lamp, this->world, this->world, this->options);
+    ASSERT_TRUE(cascades.at[0].map.visible) << describe(cascades.faults);
+    EXPECT_TRUE(laws::is_map_of(cascades.at[0].map.clip_from_world, lamp, this->options.clip, 256));
+    EXPECT_FALSE(cascades.at[3].map.visible);
+    EXPECT_TRUE(laws::well_formed(cascades));
+}
+
+TYPED_TEST(CascadesOf, TheCallAllocatesNothingAndRaisesNoFlag) {
+    EXPECT_TRUE(test::watched([this] { return this->fitted(); }).calm());
+}
+
+// Moving in whole centimetres and turning freely, a million metres from the origin.
+TEST(Cascades, AreStillInDoubleAMillionMetresAway) {
+    ViewVolume<double> view = perspective_view(Pose<double>{}, 1.0, 1.6, 0.1, 300.0);
+    Aabb<double> const world{glm::dvec3(-1e7), glm::dvec3(1e7)};
+    auto const sun = directional(glm::dvec3(0.3, -1.0, 0.2));
+    CascadeOptions<double> options;
+    glm::dvec3 const home(1e6, 120.0, -2e6);
+    glm::dvec3 const witness = home + glm::dvec3(0.123, -1.7, -4.567);
+    view.pose = pose_looking(home, glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
+    auto const before = fit_cascades(view, sun, world, world, options);
+    for (int step = 1; step < 100; ++step) {
+        glm::dvec3 const eye = home + glm::dvec3(0.01, 0.003, -0.02) * double(step);
+        view.pose = pose_looking(eye, glm::dvec3(std::sin(0.05 * step), 0.01 * step, -std::cos(0.05 * step)),
+                                 glm::dvec3(0, 1, 0));
+        auto const after = fit_cascades(view, sun, world, world, options);
+        for (int i = 0; i < before.count; ++i) {
+            ASSERT_EQ(before.at[i].texel_metres, after.at[i].texel_metres);
+            ASSERT_TRUE(laws::keeps_its_place(before.at[i].map.clip_from_world, after.at[i].map.clip_from_world,
+                                              options.map_size, witness, 1.0L / 64))
+                << "step " << step << ", cascade " << i;
+        }
+    }
+}
+
+TEST(Cascades, SayInFloatWhenTheyCannotBeStill) {
+    ViewVolume<float> const view =
+        perspective_view(Pose<float>{glm::vec3(1e6f, 0.0f, 0.0f)}, 1.0f, 1.6f, 0.1f, 100.0f);
+    Aabb<float> const world{glm::vec3(-1e7f), glm::vec3(1e7f)};
+    auto const cascades =
+        fit_cascades(view, directional(glm::vec3(0.3f, -1.0f, 0.2f)), world, world, CascadeOptions<float>{});
+    EXPECT_TRUE(cascades.faults.has(Fault::precision_lost));
+    EXPECT_TRUE(laws::well_formed(cascades));
+}
+
+}  // namespace

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/region.hpp"
+#include "tests/support/tolerance.hpp"
+
+#include <shadowmath/region.hpp>
+#include <shadowmath/view_volume.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace shadowmath;
+
+namespace {
+
+using V2 = glm::dvec2;
+using V3 = glm::dvec3;
+using V4 = glm::dvec4;
+
+V3 ndc(glm::dmat4 const& m, V3 const& p) {
+    V4 const at = m * V4(p, 1.0);
+    return V3(at) / at.w;
+}
+
+}  // namespace
+
+TEST(Region, OfTheWholeMapIsTheIdentity) {
+    EXPECT_EQ(region_matrix(Region<float>{}), glm::mat4(1.0f));
+    EXPECT_EQ(region_matrix(Region<double>{}), glm::dmat4(1.0));
+}
+
+TEST(Region, FillsTheMapAndLeavesDepthAndWAlone) {
+    EXPECT_TRUE(laws::fills_the_map(Region<double>{V2(-0.25, 0.5), V2(0.75, 0.625)}));
+    EXPECT_TRUE(laws::fills_the_map(Region<float>{{-7.0f, -3.0f}, {-6.0f, 11.0f}}));
+    glm::dmat4 const m = region_matrix(Region<double>{V2(-0.25, 0.5), V2(0.75, 0.625)});
+    EXPECT_EQ(m * V4(0.3, 0.6, 0.4, 2.0), V4((0.3 - 0.25 * 2) * 2, (0.6 - 0.5625 * 2) * 16, 0.4, 2.0));
+}
+
+TEST(Region, ScalesYByItsOwnHeightUnlikeTheThesisPrintsIt) {
+    glm::dmat4 const m = region_matrix(Region<double>{V2(0.0, -1.0), V2(0.5, 1.0)});
+    EXPECT_EQ(ndc(m, V3(0.5, 1.0, 0.0)), V3(1.0, 1.0, 0.0));
+}
+
+TEST(Region, OfARegionIsTheirProduct) {
+    Region<double> const outer{V2(-0.5, -0.5), V2(0.5, 1.0)}, inner{V2(0.0, -1.0), V2(1.0, 0.0)};
+    // `inner` counts in the NDC that `outer` made.
+    Region<double> const both{V2(0.0, -0.5), V2(0.5, 0.25)};
+    glm::dmat4 const product = region_matrix(inner) * region_matrix(outer), direct = region_matrix(both);
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(product[c][r], direct[c][r], test::tolerance(4.0, 8));
+}
+
+TEST(Region, WithoutAreaOrNotFiniteIsTheIdentity) {
+    double const nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    for (Region<double> const& bad : {Region<double>{V2(0.5, 0.0), V2(0.5, 1.0)}, Region<double>{V2(1.0), V2(-1.0)},
+                                      Region<double>{V2(nan, 0.0), V2(1.0)}, Region<double>{V2(-inf), V2(inf)}})
+        EXPECT_EQ(region_matrix(bad), glm::dmat4(1.0));
+}
+
+TEST(Region, IsWidenedAboutItsCentreAndOnlyWhereItIsThin) {
+    Region<double> const thin = widened(Region<double>{V2(0.25, -1.0), V2(0.25, 1.0)}, 2.0 / 1024.0);
+    EXPECT_DOUBLE_EQ(thin.hi.x - thin.lo.x, 2.0 / 1024.0);
+    EXPECT_DOUBLE_EQ(thin.hi.x + thin.lo.x, 0.5);
+    EXPECT_EQ(thin.lo.y, -1.0);
+    EXPECT_EQ(thin.hi.y, 1.0);
+}
+
+TEST(Region, KeepsItsMarginInTexelsOfTheMap) {
+    Region<double> const used{V2(-0.5, 0.0), V2(0.25, 0.125)};
+    glm::dmat4 const m = region_matrix(with_margin(used, 64, 3.0));
+    // The used part ends three texels of 2 / 64 before the border.
+    EXPECT_NEAR(ndc(m, V3(used.lo, 0.0)).x, -1.0 + 3 * 2.0 / 64.0, test::tolerance(4.0, 8));
+    EXPECT_NEAR(ndc(m, V3(used.hi, 0.0)).y, 1.0 - 3 * 2.0 / 64.0, test::tolerance(4.0, 8));
+}
+
+TEST(Tile, TakesTheMapToItsTexelsOfTheAtlasInEveryConvention) {
+    Tile const tile{512, 256, 256, 1024, 2048};
+    for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, d3d_clip, reversed(d3d_clip)}) {
+        glm::dmat4 const texture = texture_from_clip<double>(clip) * tile_matrix<double>(tile, clip);
+        glm::dmat4 const alone = texture_from_clip<double>(clip);
+        for (V3 const& corner : {V3(-1, -1, 0.5), V3(1, -1, 0.5), V3(-1, 1, 0.5), V3(1, 1, 0.5), V3(0.5, 0.25, 0)}) {
+            V3 const in_map = ndc(alone, corner), in_atlas = ndc(texture, corner);
+            EXPECT_DOUBLE_EQ(in_atlas.x * 1024, 512 + 256 * in_map.x);
+            EXPECT_DOUBLE_EQ(in_atlas.y * 2048, 256 + 256 * in_map.y);
+            EXPECT_EQ(in_atlas.z, in_map.z);
+        }
+    }
+}
+
+TEST(Tile, WithoutAreaOrOutsideItsAtlasIsBadRegionAndTheIdentity) {
+    int const most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::lowest();
+    for (Tile const& bad : {Tile{}, Tile{0, 0, 0, 64, 64}, Tile{0, 0, -1, 64, 64}, Tile{-1, 0, 8, 64, 64},
+                            Tile{60, 0, 8, 64, 64}, Tile{0, 57, 8, 64, 64}, Tile{most, 0, most, most, most},
+                            Tile{0, 0, most, 64, 64}, Tile{0, 0, 8, 0, 64}, Tile{least, least, least, least, least}}) {
+        EXPECT_TRUE(faults_of(bad).has(Fault::bad_region));
+        EXPECT_EQ(tile_matrix<float>(bad), glm::mat4(1.0f));
+    }
+    EXPECT_FALSE(faults_of(Tile{56, 56, 8, 64, 64}).any());
+    EXPECT_EQ(tile_matrix<float>(Tile{0, 0, 64, 64, 64}), glm::mat4(1.0f));
+}
+
+TEST(ProjectedBounds, AreThoseOfTheCornersWhenAllAreInFront) {
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0.0), V3(0, 0, -1), V3(0, 1, 0)), 1.5707963267948966, 1.0, 1.0, 100.0);
+    Aabb<double> const box{V3(-1, -2, -10), V3(3, 4, -5)};
+    Aabb<double> const bounds = projected_bounds(clip_from_world(view, ClipSpace{}), corners(box), 1.0);
+    EXPECT_NEAR(bounds.lo.x, -0.2, 1e-12);
+    EXPECT_NEAR(bounds.hi.x, 0.6, 1e-12);
+    EXPECT_NEAR(bounds.lo.y, -0.4, 1e-12);
+    EXPECT_NEAR(bounds.hi.y, 0.8, 1e-12);
+}
+
+TEST(ProjectedBounds, CutTheBodyAtWMinBeforeTheyDivide) {
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0.0), V3(0, 0, -1), V3(0, 1, 0)), 1.5707963267948966, 1.0, 1.0, 100.0);
+    Aabb<double> const astride{V3(-1, -1, -10), V3(2, 1, 10)};
+    Aabb<double> const bounds = projected_bounds(clip_from_world(view, ClipSpace{}), corners(astride), 0.5);
+    EXPECT_NEAR(bounds.lo.x, -2.0, 1e-12);
+    EXPECT_NEAR(bounds.hi.x, 4.0, 1e-12);
+    Aabb<double> const behind{V3(-1, -1, 1), V3(1, 1, 10)};
+    EXPECT_TRUE(is_empty(projected_bounds(clip_from_world(view, ClipSpace{}), corners(behind), 0.5)));
+}
+
+TEST(ProjectedBounds, OfABoxWithoutEndAreFinite) {
+    ViewVolume<float> const view =
+        perspective_view(pose_looking(glm::vec3(3, 2, 1), glm::vec3(1, 2, -1), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
+    float const most = std::numeric_limits<float>::max();
+    Aabb<float> const all{glm::vec3(-most), glm::vec3(most)};
+    for (float const w_min : {0.1f, 0.0f, -1.0f}) {
+        Aabb<float> const bounds = projected_bounds(clip_from_world(view, ClipSpace{}), corners(all), w_min);
+        EXPECT_TRUE(all_finite(bounds));
+        EXPECT_FALSE(is_empty(bounds));
+        EXPECT_LE(bounds.lo.x, -1.0f);
+        EXPECT_GE(bounds.hi.y, 1.0f);
+    }
+}
+
+TEST(ProjectedBounds, OfWhatIsNotFiniteAreEmpty) {
+    float const nan = std::numeric_limits<float>::quiet_NaN();
+    Aabb<float> const box{glm::vec3(-1.0f), glm::vec3(1.0f)};
+    EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(nan), corners(box), 0.1f)));
+    EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(0.0f), corners(box), 0.1f)));
+    EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(1.0f), corners(box), nan)));
+    EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(1.0f), corners(Aabb<float>{glm::vec3(nan), glm::vec3(1)}), 0.1f)));
+}
