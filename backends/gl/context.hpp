@@ -19,8 +19,8 @@ public:
     Context& operator=(Context const&) = delete;
     virtual ~Context() = default;
 
-    [[nodiscard]] virtual char const* name() const noexcept = 0;            // "egl", "osmesa"
-    [[nodiscard]] virtual Proc proc(char const* name) const noexcept = 0;   // null if the driver has no such function
+    [[nodiscard]] virtual char const* name() const noexcept = 0;           // "egl", "osmesa"
+    [[nodiscard]] virtual Proc proc(char const* name) const noexcept = 0;  // null if the driver has no such function
     virtual void make_current() = 0;
     virtual void release() noexcept = 0;
 };

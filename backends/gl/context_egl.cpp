@@ -16,11 +16,13 @@ namespace shadowmath::backend::gl {
 namespace {
 
 std::vector<EGLDisplay> candidate_displays() {
-    std::vector<EGLDisplay> displays{eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
+    std::vector<EGLDisplay> displays{
+        eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
     auto const query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
-    if (query_devices != nullptr && query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_TRUE)
+    if (query_devices != nullptr &&
+        query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_TRUE)
         for (EGLint i = 0; i < count; ++i)
             displays.push_back(
                 eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
@@ -57,11 +59,13 @@ private:
 }  // namespace
 
 std::unique_ptr<Context> make_egl_context() {
+    // clang-format off
     constexpr std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION, 4,
                                                EGL_CONTEXT_MINOR_VERSION, 5,
                                                EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                                EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE,
                                                EGL_NONE};
+    // clang-format on
     for (EGLDisplay const display : candidate_displays()) {
         if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) continue;
         if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) continue;

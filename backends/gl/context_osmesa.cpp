@@ -36,12 +36,14 @@ private:
 }  // namespace
 
 std::unique_ptr<Context> make_osmesa_context() {
+    // clang-format off
     constexpr std::array<int, 11> attributes{OSMESA_FORMAT, OSMESA_RGBA,
                                              OSMESA_DEPTH_BITS, 0,
                                              OSMESA_PROFILE, OSMESA_CORE_PROFILE,
                                              OSMESA_CONTEXT_MAJOR_VERSION, 4,
                                              OSMESA_CONTEXT_MINOR_VERSION, 5,
                                              0};
+    // clang-format on
     OSMesaContext const context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
     if (context == nullptr) throw std::runtime_error("OSMesa offers no OpenGL 4.5 core context; libosmesa6 is too old");
     return std::make_unique<OsMesaContext>(context);

@@ -36,7 +36,8 @@ public:
             counts_.back() += count;
         } else {
             counts_.push_back(count);
-            offsets_.push_back(reinterpret_cast<void const*>(std::uintptr_t{object.first_index} * sizeof(std::uint32_t)));
+            offsets_.push_back(
+                reinterpret_cast<void const*>(std::uintptr_t{object.first_index} * sizeof(std::uint32_t)));
         }
         end_ = object.first_index + object.index_count;
     }
@@ -56,8 +57,8 @@ private:
 // All that belongs to the context and dies before it.
 struct Resources {
     explicit Resources(Procs const& gl)
-        : vertices(make_buffer(gl)), indices(make_buffer(gl)), constants(make_buffer(gl)), geometry(make_vertex_array(gl)),
-          depth_program(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_vert}})),
+        : vertices(make_buffer(gl)), indices(make_buffer(gl)), constants(make_buffer(gl)),
+          geometry(make_vertex_array(gl)), depth_program(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_vert}})),
           receive_program(make_program(
               gl, {{GL_VERTEX_SHADER, shaders::receive_vert}, {GL_FRAGMENT_SHADER, shaders::receive_frag}})) {}
 
@@ -65,9 +66,9 @@ struct Resources {
     VertexArray geometry;
     Program depth_program, receive_program;
 
-    Texture maps;                                         // an array, one layer a map
+    Texture maps;  // an array, one layer a map
     Framebuffer map_target;
-    Texture colour, position, normal, depth;              // the last frame
+    Texture colour, position, normal, depth;  // the last frame
     Framebuffer frame_target;
 };
 
@@ -94,7 +95,9 @@ public:
 
     BackendInfo info() const override {
         Current const current(*context_);
-        auto const text = [this](GLenum what) { return std::string(reinterpret_cast<char const*>(gl_->GetString(what))); };
+        auto const text = [this](GLenum what) {
+            return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
+        };
         return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION)};
     }
 
@@ -270,7 +273,8 @@ private:
 
     template <class Block>
     void bind_constants(int index) const {
-        gl_->BindBufferRange(GL_UNIFORM_BUFFER, 0, resources_->constants, index * GLintptr{sizeof(Block)}, sizeof(Block));
+        gl_->BindBufferRange(GL_UNIFORM_BUFFER, 0, resources_->constants, index * GLintptr{sizeof(Block)},
+                             sizeof(Block));
     }
 
     void begin(GLuint framebuffer, Extent extent, GLuint program) const {

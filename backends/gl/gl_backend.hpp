@@ -11,8 +11,8 @@
 namespace shadowmath::backend {
 
 enum class GlContextKind {
-    egl,       // the machine's driver, a real GPU where there is one
-    osmesa,    // always Mesa's software rasteriser
+    egl,     // the machine's driver, a real GPU where there is one
+    osmesa,  // always Mesa's software rasteriser
 };
 
 // Throws std::runtime_error with one sentence when there is no such context on this machine.

@@ -88,13 +88,15 @@ struct ShaderSource {
         gl.CompileShader(shader);
         gl.GetShaderiv(shader, GL_COMPILE_STATUS, &done);
         gl.GetShaderInfoLog(shader, room, &length, log.data());
-        if (done != GL_TRUE) throw std::runtime_error("the driver rejects a shader: " + log.substr(0, std::size_t(length)));
+        if (done != GL_TRUE)
+            throw std::runtime_error("the driver rejects a shader: " + log.substr(0, std::size_t(length)));
         gl.AttachShader(program, shader);
     }
     gl.LinkProgram(program);
     gl.GetProgramiv(program, GL_LINK_STATUS, &done);
     gl.GetProgramInfoLog(program, room, &length, log.data());
-    if (done != GL_TRUE) throw std::runtime_error("the driver cannot link shaders: " + log.substr(0, std::size_t(length)));
+    if (done != GL_TRUE)
+        throw std::runtime_error("the driver cannot link shaders: " + log.substr(0, std::size_t(length)));
     return program;
 }
 

@@ -12,6 +12,7 @@
 
 #include <stdexcept>
 
+// clang-format off
 #define SHADOWMATH_GL_PROCS(X)                                                                                      \
     X(GetString) X(Enable) X(Disable) X(Finish) X(Viewport) X(DepthFunc) X(ClipControl)                             \
     X(DebugMessageCallback) X(DebugMessageControl)                                                                  \
@@ -26,6 +27,7 @@
     X(CreateFramebuffers) X(NamedFramebufferTexture) X(NamedFramebufferTextureLayer) X(NamedFramebufferDrawBuffers) \
     X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(BindFramebuffer) X(DeleteFramebuffers)              \
     X(MultiDrawElements)
+// clang-format on
 
 namespace shadowmath::backend::gl {
 
@@ -37,8 +39,8 @@ struct Procs {
     // Loads every entry point or throws; get_proc maps a name such as "glEnable" to a function pointer.
     template <class GetProc>
     explicit Procs(GetProc const& get_proc) {
-#define SHADOWMATH_GL_LOAD(name)                                       \
-    name = reinterpret_cast<decltype(name)>(get_proc("gl" #name));     \
+#define SHADOWMATH_GL_LOAD(name)                                   \
+    name = reinterpret_cast<decltype(name)>(get_proc("gl" #name)); \
     if (name == nullptr) throw std::runtime_error("this OpenGL driver has no gl" #name);
         SHADOWMATH_GL_PROCS(SHADOWMATH_GL_LOAD)
 #undef SHADOWMATH_GL_LOAD

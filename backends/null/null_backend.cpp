@@ -60,6 +60,8 @@ Frame NullBackend::read_frame() {
             Image<Texel4>(extent_, {0.0f, 0.0f, 0.0f, 1.0f})};
 }
 
-std::vector<std::string> NullBackend::take_messages() { return std::exchange(messages_, {}); }
+std::vector<std::string> NullBackend::take_messages() {
+    return std::exchange(messages_, {});
+}
 
 }  // namespace shadowmath::backend

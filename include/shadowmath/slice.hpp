@@ -20,14 +20,25 @@ struct SliceRange {
     T end = T(0);          // to here
 };
 
+namespace detail {
+
+// Where the last `share` of [begin, end] starts; never before begin, however the product rounds.
+template <class T>
+[[nodiscard]] inline T fade_begin(T begin, T end, T share) noexcept {
+    T const at = end - share * (end - begin);
+    return at > begin ? at : begin;
+}
+
+}  // namespace detail
+
 // Metres of eye depth that split `index` must serve; `blend` in [0, 1] is the fraction of each split that fades.
 template <class T>
 [[nodiscard]] inline SliceRange<T> slice_range(Splits<T> const& splits, int index, T blend = T(0)) noexcept {
     SHADOWMATH_ASSERT(index >= 0 && index < splits.count, "slice index outside the splits");
     T const share = blend > T(0) ? (blend < T(1) ? blend : T(1)) : T(0);
     SliceRange<T> range{splits.plane[index], splits.plane[index + 1], splits.plane[index + 1]};
-    if (index > 0) range.begin = range.begin - share * (splits.plane[index] - splits.plane[index - 1]);
-    if (index + 1 < splits.count) range.blend_begin = range.end - share * (range.end - splits.plane[index]);
+    if (index > 0) range.begin = detail::fade_begin(splits.plane[index - 1], splits.plane[index], share);
+    if (index + 1 < splits.count) range.blend_begin = detail::fade_begin(splits.plane[index], range.end, share);
     return range;
 }
 

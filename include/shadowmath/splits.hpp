@@ -83,21 +83,21 @@ template <class T>
 
 // Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0 uniform.
 // z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and no fault).
-// At z_near = 0 no ratio exists: the logarithmic part then starts at 2^-20 of z_far (near_clamped).
+// Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at 2^-20 of z_far
+// (near_clamped).
 template <class T>
 [[nodiscard]] inline Splits<T> practical_splits(T z_near, T z_far, int count, T lambda = T(0.5)) noexcept {
     Splits<T> splits = detail::open_splits(z_near, z_far, count);
     T const weight = detail::clamped_lambda(lambda, splits.faults);
     if (splits.count == 0) return splits;
-    T log_near = z_near;
-    if (weight > T(0) && !(z_near > T(0))) {
-        log_near = z_far / T(1 << 20);
-        splits.faults |= Fault::near_clamped;
-    }
+    bool const has_ratio = z_near > z_far * T(0x1p-64);
+    if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
+    T const ratio = has_ratio ? z_far / z_near : T(1 << 20);
+    T const log_near = has_ratio ? z_near : z_far / ratio;
     for (int i = 1; i < splits.count; ++i) {
         T const fraction = T(i) / T(splits.count);
         T const uniform = z_near + (z_far - z_near) * fraction;
-        T const logarithmic = weight > T(0) ? log_near * std::pow(z_far / log_near, fraction) : T(0);
+        T const logarithmic = weight > T(0) ? log_near * std::pow(ratio, fraction) : T(0);
         splits.plane[i] = weight * logarithmic + (T(1) - weight) * uniform;
     }
     detail::close_splits(splits, z_near, z_far);
@@ -118,7 +118,8 @@ template <class T>
 // splits are practical throughout.
 template <class T>
 [[nodiscard]] inline Splits<T> pinned_splits(T z_near, T z_far, int count, T first_end, T lambda = T(0.5)) noexcept {
-    bool const inside = all_finite(&first_end, 1) && first_end > z_near && first_end < z_far;
+    bool const numbers = all_finite(&z_near, 1) && all_finite(&z_far, 1) && all_finite(&first_end, 1);
+    bool const inside = numbers && first_end > z_near && first_end < z_far;
     if (count < 2 || !inside) {
         Splits<T> splits = practical_splits(z_near, z_far, count, lambda);
         if (!inside) splits.faults |= Fault::clamped_option;

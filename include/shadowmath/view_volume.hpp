@@ -50,8 +50,8 @@ struct ViewVolume {
 };
 
 // Looks from `position` along `forward`; `rough_up` only chooses the roll. Orthonormal for every input: where
-// forward is (nearly) parallel to rough_up, the world axis least along forward takes its place; a forward that is zero or not
-// finite becomes -z.
+// forward is (nearly) parallel to rough_up, the world axis least along forward takes its place; a forward that is zero or
+// not finite becomes -z.
 template <class T>
 [[nodiscard]] inline Pose<T> pose_looking(Vec3<T> const& position, Vec3<T> const& forward,
                                           Vec3<T> const& rough_up) noexcept {

@@ -70,9 +70,15 @@ TEST_P(GlBackend, PancakesWhatLiesInFrontOfTheMapOnlyWhenClamped) {
 }
 
 TEST_P(GlBackend, DrawsTheListedObjectsOnly) {
-    Scene const scene = triangles({{-1, -1, 0.2f}, {3, -1, 0.2f}, {-1, 3, 0.2f},      //
-                                   {-1, -1, 0.4f}, {3, -1, 0.4f}, {-1, 3, 0.4f},      //
-                                   {-1, -1, 0.6f}, {3, -1, 0.6f}, {-1, 3, 0.6f}});
+    Scene const scene = triangles({{-1, -1, 0.2f},
+                                   {3, -1, 0.2f},
+                                   {-1, 3, 0.2f},  //
+                                   {-1, -1, 0.4f},
+                                   {3, -1, 0.4f},
+                                   {-1, 3, 0.4f},  //
+                                   {-1, -1, 0.6f},
+                                   {3, -1, 0.6f},
+                                   {-1, 3, 0.6f}});
     EXPECT_EQ(draw_in_clip(*backend, scene, 4, true, {}).at(1, 1), 1.0f);
     EXPECT_FLOAT_EQ(draw_in_clip(*backend, scene, 4, true, {0, 1, 2}).at(1, 1), 0.2f);
     EXPECT_FLOAT_EQ(draw_in_clip(*backend, scene, 4, true, {1, 2}).at(1, 1), 0.4f);
@@ -82,7 +88,8 @@ TEST_P(GlBackend, DrawsTheListedObjectsOnly) {
 }
 
 TEST_P(GlBackend, KeepsEachLayerApart) {
-    backend->upload(triangles({{-1, -1, 0.2f}, {3, -1, 0.2f}, {-1, 3, 0.2f}, {-1, -1, 0.4f}, {3, -1, 0.4f}, {-1, 3, 0.4f}}));
+    backend->upload(
+        triangles({{-1, -1, 0.2f}, {3, -1, 0.2f}, {-1, 3, 0.2f}, {-1, -1, 0.4f}, {3, -1, 0.4f}, {-1, 3, 0.4f}}));
     std::array<std::uint32_t, 2> const objects{0, 1};
     std::array<DepthLayer, max_maps> layers;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -100,7 +107,8 @@ TEST_P(GlBackend, DrawsTheSameTwiceAndAfterOtherSizes) {
     auto const colours = [&](Extent extent, int map_size) {
         Frame const frame = draw_quad_over_floor(*backend, world, world.pass(extent, map_size));
         std::vector<std::uint32_t> packed;
-        for (Rgba8 const& c : frame.colour.pixels) packed.push_back(std::uint32_t{c.r} << 16u | std::uint32_t{c.g} << 8u | c.b);
+        for (Rgba8 const& c : frame.colour.pixels)
+            packed.push_back(std::uint32_t{c.r} << 16u | std::uint32_t{c.g} << 8u | c.b);
         return packed;
     };
     auto const first = colours({160, 120}, 256);

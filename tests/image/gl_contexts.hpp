@@ -13,7 +13,9 @@ namespace shadowmath::image_test {
 
 using namespace shadowmath::backend;
 
-[[nodiscard]] inline std::string name_of(GlContextKind kind) { return kind == GlContextKind::egl ? "egl" : "osmesa"; }
+[[nodiscard]] inline std::string name_of(GlContextKind kind) {
+    return kind == GlContextKind::egl ? "egl" : "osmesa";
+}
 
 class InGlContext : public testing::TestWithParam<GlContextKind> {
 protected:

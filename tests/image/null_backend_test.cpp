@@ -65,7 +65,8 @@ TEST(NullBackend, SaysWhatIsWrongWithACall) {
     EXPECT_EQ(scene_with([](auto&) {}), "");
     EXPECT_EQ(scene_with([](auto& pass) { pass.extent.width = 0; }), "scene pass: the extent is empty");
     EXPECT_EQ(scene_with([](auto& pass) { pass.frame.map_count = 2; }), "scene pass: reads 2 maps, but 1 are drawn");
-    EXPECT_EQ(scene_with([](auto& pass) { pass.frame.filter_radius = 3; }), "scene pass: filter_radius is not 0, 1 or 2");
+    EXPECT_EQ(scene_with([](auto& pass) { pass.frame.filter_radius = 3; }),
+              "scene pass: filter_radius is not 0, 1 or 2");
     EXPECT_EQ(scene_with([](auto& pass) { pass.frame.maps[0].clip_from_world[0][0] = INFINITY; }),
               "scene pass: map 0 has a matrix that is not finite");
     EXPECT_EQ(complaint_of([&] { static_cast<void>(backend.read_depth(1)); }), "read_depth: layer 1 of 1");

@@ -20,7 +20,7 @@ using namespace shadowmath::backend;
 struct QuadOverFloor {
     static constexpr float height_metres = 2.0f;
     static constexpr float half_side_metres = 1.0f;
-    static constexpr float half_map_metres = 8.0f;   // the map covers 16 m
+    static constexpr float half_map_metres = 8.0f;  // the map covers 16 m
     static constexpr std::uint32_t floor = 0, quad = 1;
 
     glm::vec3 light_travel = glm::normalize(glm::vec3(0.5f, -1.0f, 0.25f));
@@ -46,8 +46,8 @@ struct QuadOverFloor {
         glm::vec3 const target(0.5f, 0.0f, 0.0f);
         float const aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
         ScenePass pass{extent, {}};
-        pass.frame.clip_from_world = glm::perspectiveRH_ZO(0.9f, aspect, 0.1f, 100.0f) *
-                                     glm::lookAtRH(eye, target, glm::vec3(0, 1, 0));
+        pass.frame.clip_from_world =
+            glm::perspectiveRH_ZO(0.9f, aspect, 0.1f, 100.0f) * glm::lookAtRH(eye, target, glm::vec3(0, 1, 0));
         pass.frame.eye_position = glm::vec4(eye, 1.0f);
         pass.frame.eye_forward = glm::vec4(glm::normalize(target - eye), 0.0f);
         pass.frame.light = glm::vec4(-light_travel, 0.0f);
@@ -91,7 +91,11 @@ inline Frame draw_quad_over_floor(Backend& backend, QuadOverFloor const& world, 
     return backend.read_frame();
 }
 
-[[nodiscard]] inline bool is_sky(Texel4 const& position) { return position.w == -2.0f; }
-[[nodiscard]] inline bool is_floor(Texel4 const& position) { return !is_sky(position) && position.y < 0.5f; }
+[[nodiscard]] inline bool is_sky(Texel4 const& position) {
+    return position.w == -2.0f;
+}
+[[nodiscard]] inline bool is_floor(Texel4 const& position) {
+    return !is_sky(position) && position.y < 0.5f;
+}
 
 }  // namespace shadowmath::image_test

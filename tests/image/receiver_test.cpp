@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The receiver pass against geometry: where shadows fall, which map is read, what is shaded.
+// The receiver pass against geometry: where shadows fall and which map is read. What is shaded: shading_test.cpp.
 #include "tests/image/gl_contexts.hpp"
 #include "tests/image/quad_over_floor.hpp"
 
@@ -78,7 +78,8 @@ TEST_P(Receiver, FilteredVisibilityIsContinuousAcrossThePicture) {
     glm::mat4 const centred = world.clip_from_world_of_sun();
     float const shadow_x = (centred * glm::vec4(1.0f, 0.0f, 0.5f, 1.0f)).x;
     glm::mat4 const shadow_on_the_border = glm::translate(glm::mat4(1.0f), glm::vec3(1.0f - shadow_x, 0, 0)) * centred;
-    for (auto const& [radius, sun] : {std::pair(1, centred), {2, centred}, {1, shadow_on_the_border}, {2, shadow_on_the_border}}) {
+    for (auto const& [radius, sun] :
+         {std::pair(1, centred), {2, centred}, {1, shadow_on_the_border}, {2, shadow_on_the_border}}) {
         ScenePass pass = world.pass({640, 480}, 64);
         pass.frame.filter_radius = radius;
         pass.frame.maps[0].clip_from_world = sun;
@@ -87,7 +88,9 @@ TEST_P(Receiver, FilteredVisibilityIsContinuousAcrossThePicture) {
         // 1.15, that is 2.8e-4 m or 1.8e-5 of the map's 16 m.
         pass.frame.maps[0].bias_constant = 2e-5f;
         Frame const frame = draw_quad_over_floor(*backend, world, pass);
-        auto const texel_of = [map = sun](Texel4 const& p) { return glm::vec2(map * glm::vec4(p.x, p.y, p.z, 1.0f)) * 32.0f; };
+        auto const texel_of = [map = sun](Texel4 const& p) {
+            return glm::vec2(map * glm::vec4(p.x, p.y, p.z, 1.0f)) * 32.0f;
+        };
         int partial = 0;
         for (int y = 0; y < 480; ++y)
             for (int x = 1; x < 640; ++x) {
@@ -104,43 +107,8 @@ TEST_P(Receiver, FilteredVisibilityIsContinuousAcrossThePicture) {
     }
 }
 
-void expect_true_positions_and_normals(Backend& backend, bool mirrored) {
-    QuadOverFloor const world;
-    ScenePass pass = world.pass({160, 120}, 256);
-    pass.frame.sky = {0.0f, 0.5f, 1.0f, 1.0f};
-    if (mirrored) pass.frame.clip_from_world = glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1)) * pass.frame.clip_from_world;
-    Frame const frame = draw_quad_over_floor(backend, world, pass);
-    int floor_pixels = 0, quad_pixels = 0, sky_pixels = 0;
-    for (int y = 0; y < 120; ++y)
-        for (int x = 0; x < 160; ++x) {
-            Texel4 const& p = frame.position.at(x, y);
-            Rgba8 const& colour = frame.colour.at(x, y);
-            if (is_sky(p)) {
-                ++sky_pixels;
-                EXPECT_EQ(int(colour.r), 0);
-                EXPECT_NEAR(int(colour.g), 188, 1);  // sRGB of 0.5
-                EXPECT_EQ(int(colour.b), 255);
-                continue;
-            }
-            (is_floor(p) ? floor_pixels : quad_pixels) += 1;
-            // World coordinates below 16 with a handful of roundings each in interpolation.
-            EXPECT_NEAR(p.y, is_floor(p) ? 0.0f : QuadOverFloor::height_metres, 64.0f * 16.0f * epsilon);
-            EXPECT_NEAR(frame.normal.at(x, y).y, 1.0f, 1e-4f);
-            glm::vec4 const clip = pass.frame.clip_from_world * glm::vec4(p.x, p.y, p.z, 1.0f);
-            EXPECT_NEAR((clip.x / clip.w * 0.5f + 0.5f) * 160.0f, float(x) + 0.5f, 0.01f);
-            EXPECT_NEAR((clip.y / clip.w * 0.5f + 0.5f) * 120.0f, float(y) + 0.5f, 0.01f);
-        }
-    EXPECT_GT(floor_pixels, 5000);
-    EXPECT_GT(quad_pixels, 200);
-    EXPECT_GT(sky_pixels, 1000);
-}
-
-TEST_P(Receiver, ReportsPositionNormalAndSky) { expect_true_positions_and_normals(*backend, false); }
-TEST_P(Receiver, ReportsPositionNormalAndSkyInAMirroredPicture) { expect_true_positions_and_normals(*backend, true); }
-
 float eye_depth(ScenePass const& pass, Texel4 const& p) {
-    return glm::dot(glm::vec3(pass.frame.eye_forward),
-                    glm::vec3(p.x, p.y, p.z) - glm::vec3(pass.frame.eye_position));
+    return glm::dot(glm::vec3(pass.frame.eye_forward), glm::vec3(p.x, p.y, p.z) - glm::vec3(pass.frame.eye_position));
 }
 
 TEST_P(Receiver, ChoosesAndBlendsMapsByEyeDepth) {
@@ -201,7 +169,8 @@ TEST_P(Receiver, ChoosesTheFirstMapThatHoldsThePointAndItsFilter) {
     pass.frame.choice = MapChoice::by_map;
     pass.frame.filter_radius = 1;
     glm::mat4 const sun = world.clip_from_world_of_sun();
-    pass.frame.maps[0].clip_from_world = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 1)) * sun;  // everything beyond it
+    pass.frame.maps[0].clip_from_world =
+        glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 1)) * sun;  // everything beyond it
     pass.frame.maps[1].clip_from_world = glm::scale(glm::mat4(1.0f), glm::vec3(4, 4, 1)) * sun;
     pass.frame.maps[2].clip_from_world = glm::scale(glm::mat4(1.0f), glm::vec3(2, 2, 1)) * sun;
     Frame const frame = draw_quad_over_floor(*backend, world, pass);
@@ -253,8 +222,8 @@ TEST_P(Receiver, ASpotLightsMapAgreesWithItsGeometryAndItsConeEndsTheLight) {
     ScenePass pass = world.pass({320, 240}, 512);
     pass.frame.light = glm::vec4(light, 1.0f);
     pass.frame.spot_axis = {0.0f, -1.0f, 0.0f, cos_half_angle};
-    pass.frame.maps[0].clip_from_world = glm::perspectiveRH_ZO(1.4f, 1.0f, 0.5f, 10.0f) *
-                                         glm::lookAtRH(light, glm::vec3(0.0f), glm::vec3(0, 0, -1));
+    pass.frame.maps[0].clip_from_world =
+        glm::perspectiveRH_ZO(1.4f, 1.0f, 0.5f, 10.0f) * glm::lookAtRH(light, glm::vec3(0.0f), glm::vec3(0, 0, -1));
     pass.frame.maps[0].bias_constant = rounding_bias;
     pass.frame.filter_radius = 1;
     Frame const frame = draw_quad_over_floor(*backend, world, pass);
@@ -283,8 +252,8 @@ TEST_P(Receiver, ATiltedSpotLightsMapShowsNoAcneOnTheFloor) {
     glm::vec3 const light(-5.0f, 4.0f, -3.0f);
     ScenePass pass = world.pass({320, 240}, 128);
     pass.frame.light = glm::vec4(light, 1.0f);
-    pass.frame.maps[0].clip_from_world = glm::perspectiveRH_ZO(1.2f, 1.0f, 0.5f, 20.0f) *
-                                         glm::lookAtRH(light, glm::vec3(0.0f), glm::vec3(0, 1, 0));
+    pass.frame.maps[0].clip_from_world =
+        glm::perspectiveRH_ZO(1.2f, 1.0f, 0.5f, 20.0f) * glm::lookAtRH(light, glm::vec3(0.0f), glm::vec3(0, 1, 0));
     pass.frame.choice = MapChoice::by_map;
     pass.frame.filter_radius = 2;
     pass.frame.maps[0].bias_constant = 2e-5f;  // the noise of the plane's normal, as above
@@ -306,8 +275,8 @@ TEST_P(Receiver, BiasWIsDividedByClipW) {
     float const b = 0.5f * 10.0f / 9.5f;
     ScenePass pass = world.pass({160, 120}, 256);
     pass.frame.light = glm::vec4(light, 1.0f);
-    pass.frame.maps[0].clip_from_world = glm::perspectiveRH_ZO(1.4f, 1.0f, 0.5f, 10.0f) *
-                                         glm::lookAtRH(light, glm::vec3(0.0f), glm::vec3(0, 0, -1));
+    pass.frame.maps[0].clip_from_world =
+        glm::perspectiveRH_ZO(1.4f, 1.0f, 0.5f, 10.0f) * glm::lookAtRH(light, glm::vec3(0.0f), glm::vec3(0, 0, -1));
     for (float const share : {0.65f, 0.68f}) {
         pass.frame.maps[0].bias_w = share * b;
         Frame const frame = draw_quad_over_floor(*backend, world, pass);
@@ -332,61 +301,6 @@ TEST_P(Receiver, APlaneThatTheLightGrazesStaysFinite) {
         Frame const frame = draw_quad_over_floor(*backend, world, pass);
         for (Texel4 const& normal : frame.normal.pixels) EXPECT_TRUE(normal.w >= 0.0f && normal.w <= 1.0f) << normal.w;
     }
-}
-
-float srgb_from_linear(float x) {
-    x = std::fmin(std::fmax(x, 0.0f), 1.0f);
-    return 255.0f * (x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f);
-}
-
-void expect_shaded_as_written(Backend& backend, QuadOverFloor const& world, FrameConstants const& light) {
-    ScenePass pass = world.pass({160, 120}, 256);
-    pass.frame.light = light.light;
-    pass.frame.spot_axis = light.spot_axis;
-    pass.frame.specular = 0.4f;
-    pass.frame.specular_power = 10.0f;
-    pass.frame.ambient = {0.05f, 0.06f, 0.07f, 0.0f};
-    pass.frame.light_colour = {0.5f, 0.6f, 0.4f, 0.0f};
-    pass.frame.maps[0].bias_constant = rounding_bias;
-    Frame const frame = draw_quad_over_floor(backend, world, pass);
-    glm::vec3 const up(0, 1, 0);
-    float const cos_outer = pass.frame.spot_axis.w;
-    int lit = 0, rim = 0;
-    for (std::size_t i = 0; i < frame.position.pixels.size(); ++i) {
-        Texel4 const& p = frame.position.pixels[i];
-        if (is_sky(p)) continue;
-        glm::vec3 const point(p.x, p.y, p.z);
-        glm::vec3 const light_at(pass.frame.light);
-        glm::vec3 const to_light = glm::normalize(light_at - pass.frame.light.w * point);
-        glm::vec3 const half = glm::normalize(to_light + glm::normalize(world.eye - point));
-        float const into_cone = (glm::dot(-to_light, glm::vec3(pass.frame.spot_axis)) - cos_outer) / (0.1f * (1.0f - cos_outer));
-        float const t = cos_outer <= -2.0f ? 1.0f : std::fmin(std::fmax(into_cone, 0.0f), 1.0f);
-        float const spot = t * t * (3.0f - 2.0f * t);
-        float const direct = glm::dot(up, to_light) + 0.4f * std::pow(glm::dot(up, half), 10.0f);
-        Vertex const& vertex = world.scene.vertices[is_floor(p) ? 0u : 4u];
-        std::array<std::uint8_t, 3> const got{frame.colour.pixels[i].r, frame.colour.pixels[i].g, frame.colour.pixels[i].b};
-        for (int k = 0; k < 3; ++k) {
-            float const linear = (pass.frame.ambient[k] + pass.frame.light_colour[k] * direct * spot * frame.normal.pixels[i].w) *
-                                 float(vertex.albedo[k]) / 255.0f;
-            EXPECT_NEAR(float(got[std::size_t(k)]), srgb_from_linear(linear), 1.5f);
-        }
-        lit += frame.normal.pixels[i].w == 1.0f;
-        rim += spot > 0.1f && spot < 0.9f;
-    }
-    EXPECT_GT(lit, 1000);
-    EXPECT_TRUE(cos_outer <= -2.0f || rim > 100) << rim;
-}
-
-TEST_P(Receiver, ShadesAmbientDiffuseAndHighlight) {
-    QuadOverFloor world;
-    FrameConstants light;
-    light.light = glm::vec4(-world.light_travel, 0.0f);
-    expect_shaded_as_written(*backend, world, light);
-    for (Vertex& vertex : world.scene.vertices) vertex.normal = -vertex.normal;  // seen from behind
-    expect_shaded_as_written(*backend, world, light);
-    light.light = {1.0f, 6.0f, 1.0f, 1.0f};
-    light.spot_axis = {0.0f, -1.0f, 0.0f, 0.8f};
-    expect_shaded_as_written(*backend, world, light);
 }
 
 TEST_P(Receiver, ObjectsThatReceiveNothingAreLit) {

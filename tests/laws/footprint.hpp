@@ -5,6 +5,8 @@
 
 #include <shadowmath/footprint.hpp>
 
+#include <glm/matrix.hpp>
+
 #include <cmath>
 
 namespace shadowmath::laws {
@@ -20,16 +22,21 @@ template <class T>
     return std::abs(a.major - b.major) <= relative * a.major && std::abs(a.minor - b.minor) <= relative * a.major;
 }
 
-// Eye pixels per map texel in one direction of the world, measured by moving the point there.
+// d(eye pixels) / d(map texels) on the plane, measured by moving the point: columns are what a texel in x and in y gives.
 template <class T>
-[[nodiscard]] long double measured_ratio(Mat4<T> const& eye, Vec2<T> const& eye_pixels, Mat4<T> const& map,
-                                         T map_texels, Vec3<T> const& point, Vec3<T> const& direction,
-                                         long double step) {
-    Vec2<long double> const pixels =
-        Vec2<long double>(measured_gain(eye, point, direction, step)) * Vec2<long double>(eye_pixels);
-    Vec2<long double> const texels =
-        Vec2<long double>(measured_gain(map, point, direction, step)) * static_cast<long double>(map_texels);
-    return glm::length(pixels) / glm::length(texels);
+[[nodiscard]] glm::mat<2, 2, long double, glm::defaultp> measured_jacobian(Mat4<T> const& eye,
+                                                                           Vec2<T> const& eye_pixels,
+                                                                           Mat4<T> const& map, T map_texels,
+                                                                           Vec3<T> const& point,
+                                                                           Tangents<T> const& plane,
+                                                                           long double step) {
+    using Mat2 = glm::mat<2, 2, long double, glm::defaultp>;
+    using V = Vec2<long double>;
+    auto const gains = [&](Mat4<T> const& matrix, V size) {
+        return Mat2(V(measured_gain(matrix, point, plane.s, step)) * size * 0.5L,
+                    V(measured_gain(matrix, point, plane.t, step)) * size * 0.5L);
+    };
+    return gains(eye, V(eye_pixels)) * glm::inverse(gains(map, V(static_cast<long double>(map_texels))));
 }
 
 }  // namespace shadowmath::laws

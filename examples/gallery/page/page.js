@@ -86,7 +86,7 @@
       element("tbody", {}, ...rows.map(row => element("tr", {},
         element("th", { scope: "row" }, row.t.title, element("small", {}, `${row.t.maps} × ${row.t.map_size}², ${row.t.source}`)),
         ...row.scenes.map((value, i) => cell(row, value, i)), element("td", {}, element("b", {}, percent(row.all))),
-        ...columns.map(([, key, show]) => element("td", {}, show(mean(row.mine.map(r => r[key]))))))));
+        ...columns.map(([, key, show]) => element("td", {}, show(mean(row.mine.map(r => r[key])))))))));
   }
 
   const swatch = colour => element("span", { class: "swatch", style: `background:${colour}`, "aria-hidden": "true" });

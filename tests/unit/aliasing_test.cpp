@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/aliasing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+using namespace shadowmath::closed_form;
+
+namespace {
+
+void expect_near_relative(double value, double wanted, double relative = 1e-12) {
+    EXPECT_NEAR(value, wanted, relative * std::abs(wanted));
+}
+
+}  // namespace
+
+TEST(Aliasing, HasThePublishedWorstCasesForARangeOfAThousand) {
+    expect_near_relative(uniform_along(1.0, 1.0, 1000.0), 999);
+    expect_near_relative(warped_worst(1.0, 1000.0, best_centre(1.0, 1000.0)), std::sqrt(1000.0) - 1 / std::sqrt(1000.0));
+    expect_near_relative(logarithmic_along(1.0, 1000.0), 6.907755278982137);
+    EXPECT_NEAR(split_uniform_worst(1.0, 1000.0, 4), 4.623, 5e-4);
+    EXPECT_NEAR(split_warped_worst(1.0, 1000.0, 4), 1.950, 5e-4);
+    EXPECT_NEAR(split_logarithmic_worst(1.0, 1000.0, 4), 1.727, 5e-4);
+}
+
+TEST(Aliasing, IsTheStepOfTheMapOverTheDepth) {
+    long double const n = 0.7L, f = 90.0L, d = f - n;
+    for (long double z : {0.8L, 2.0L, 17.0L, 85.0L}) {
+        auto const uniform = [=](long double at) { return (at - n) / d; };
+        auto const logarithmic = [=](long double at) { return std::log(at / n) / std::log(f / n); };
+        EXPECT_NEAR(uniform_along(z, n, f) / laws::measured_along(uniform, z, 1e-6L), 1.0L, 1e-10L);
+        EXPECT_NEAR(logarithmic_along(n, f) / laws::measured_along(logarithmic, z, 1e-6L), 1.0L, 1e-10L);
+        for (long double a : {0.7L, 3.0L, 40.0L}) {
+            auto const warped = [=](long double at) { return (a + d) * (at - n) / (d * (at - n + a)); };
+            EXPECT_NEAR(warped_along(z, n, f, a) / laws::measured_along(warped, z, 1e-6L), 1.0L, 1e-10L);
+        }
+    }
+}
+
+TEST(Aliasing, BothEndsOfTheBestWarpAreAlikeAndNoOtherCentreIsBetter) {
+    double const n = 0.5, f = 300, best = best_centre(n, f);
+    expect_near_relative(warped_along(n, n, f, best), warped_along(f, n, f, best));
+    for (double factor : {0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2.0, 10.0})
+        EXPECT_GT(warped_worst(n, f, best * factor), warped_worst(n, f, best));
+    double const least = 4 * (std::sqrt(f) - std::sqrt(n)) / (std::sqrt(f) + std::sqrt(n));
+    expect_near_relative(warped_along(std::sqrt(n * f), n, f, best), least);
+}
+
+TEST(Aliasing, AWarpFromTheEyeIsPerfectAcrossAndFromFarAwayIsNone) {
+    expect_near_relative(warped_across(7.0, 1.0, 100.0, 1.0), 1.0);
+    expect_near_relative(warped_across(7.0, 1.0, 100.0, 1e12), uniform_across(7.0, 1.0, 100.0), 1e-9);
+    expect_near_relative(warped_along(7.0, 1.0, 100.0, 1e12), uniform_along(7.0, 1.0, 100.0), 1e-9);
+    expect_near_relative(warped_across(1.0, 1.0, 100.0, best_centre(1.0, 100.0)), 10.0);
+}
+
+TEST(Aliasing, OutsideItsRangeIsZero) {
+    double const nan = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(uniform_along(1.0, 0.0, 10.0), 0.0);
+    EXPECT_EQ(uniform_along(-1.0, 1.0, 10.0), 0.0);
+    EXPECT_EQ(logarithmic_along(10.0, 1.0), 0.0);
+    EXPECT_EQ(logarithmic_along(1.0, endless), 0.0);
+    EXPECT_EQ(warped_along(1.0, 1.0, 10.0, nan), 0.0);
+    EXPECT_EQ(best_centre(nan, 10.0), 0.0);
+    EXPECT_EQ(split_uniform_worst(1.0, 10.0, 0), 0.0);
+    EXPECT_EQ(pixels_per_texel(1000.0, 0.0, 1000.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 0.0, 1.0, 1.0, 1.0, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 1.0, 0.0, 1.0, 1.0, 1.0), 0.0);
+}

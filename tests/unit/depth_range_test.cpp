@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/depth_range.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace shadowmath;
+
+template <class T>
+class DepthRangeOf : public ::testing::Test {
+public:
+    // Light along -y, depth = -y: sides of 10 m around the origin, a slice from y = 5 down to y = -5.
+    LightBox<T> sides{{}, Vec2<T>(T(-5)), Vec2<T>(T(5)), T(0), T(1)};
+    DepthRange<T> slice{T(-5), T(5), true};
+    Aabb<T> ground{Vec3<T>(-100, -3, -100), Vec3<T>(100, -1, 100)};
+    Aabb<T> tower{Vec3<T>(-1, -1, -1), Vec3<T>(1, 40, 1)};
+
+    DepthRange<T> range(Aabb<T> const& casters, Aabb<T> const& receivers, bool pancake = false) const {
+        return depth_range(sides, slice, casters, receivers, pancake);
+    }
+    // The range is widened by 8 eps of the largest coordinate, and its planes by 8 eps of that times sqrt(3) at most,
+    // which a slope of 45 degrees can double.
+    static bool close(T value, long double wanted, long double largest = 100) {
+        return std::abs(value - wanted) <= largest * 40 * std::numeric_limits<T>::epsilon();
+    }
+};
+using Scalars = ::testing::Types<float, double, long double>;
+TYPED_TEST_SUITE(DepthRangeOf, Scalars);
+
+TYPED_TEST(DepthRangeOf, ATowerOnTheGroundIsFromItsTopToTheGroundsBottom) {
+    auto const range = this->range(this->tower, this->ground);
+    EXPECT_TRUE(range.visible);
+    EXPECT_TRUE(this->close(range.lo, -40));
+    EXPECT_TRUE(this->close(range.hi, 3));
+}
+
+TYPED_TEST(DepthRangeOf, PancakeStartsAtTheFirstReceiver) {
+    auto const range = this->range(this->tower, this->ground, true);
+    EXPECT_TRUE(this->close(range.lo, 1));
+    EXPECT_TRUE(this->close(range.hi, 3));
+}
+
+TYPED_TEST(DepthRangeOf, ReceiversBelowTheSliceDoNotDeepenIt) {
+    using T = TypeParam;
+    auto const range = this->range(this->tower, {Vec3<T>(-100, -1000, -100), Vec3<T>(100, -1, 100)});
+    EXPECT_TRUE(this->close(range.hi, 5));
+}
+
+TYPED_TEST(DepthRangeOf, CastersBesideTheSidesAreLeftOut) {
+    using T = TypeParam;
+    EXPECT_FALSE(this->range({Vec3<T>(6, -1, -1), Vec3<T>(9, 40, 1)}, this->ground).visible);
+    EXPECT_TRUE(this->range({Vec3<T>(4, -1, -1), Vec3<T>(9, 40, 1)}, this->ground).visible);
+}
+
+TYPED_TEST(DepthRangeOf, CastersBelowTheLastReceiverAreLeftOut) {
+    using T = TypeParam;
+    EXPECT_FALSE(this->range({Vec3<T>(-1, -9, -1), Vec3<T>(1, -4, 1)}, this->ground).visible);
+}
+
+TYPED_TEST(DepthRangeOf, ABoxThatLeansIntoTheShaftCountsFromWhereItIsInside) {
+    using T = TypeParam;
+    // Light slants by 45 degrees in x: x_light = (x + y) / sqrt 2 up to sign, depth = (x - y) / sqrt 2.
+    // A box of 200 m up and down, 2 m around x = 0: inside |x_light| <= 5 only for |y| <= 5 sqrt 2 + 1.
+    this->sides.basis = light_basis(directional(Vec3<T>(1, -1, 0)).direction);
+    Aabb<T> const pole{Vec3<T>(-1, -200, -1), Vec3<T>(1, 200, 1)};
+    auto const range = this->range(pole, this->ground);
+    ASSERT_TRUE(range.visible);
+    // The nearest point: x = -1, x + y = 5 sqrt 2, depth = (-1 - (5 sqrt 2 + 1)) / sqrt 2 = -5 - sqrt 2.
+    EXPECT_TRUE(this->close(range.lo, -5 - std::sqrt(2.0L), 200));
+}
+
+TYPED_TEST(DepthRangeOf, BoxesWithoutAnEndAreCutBeforeTheyAreComputedWith) {
+    using T = TypeParam;
+    T const huge = std::numeric_limits<T>::max();
+    Aabb<T> const everything{Vec3<T>(-huge), Vec3<T>(huge)};
+    auto const range = this->range(everything, everything);
+    EXPECT_TRUE(range.visible);
+    EXPECT_TRUE(laws::is_a_range(range));
+    EXPECT_TRUE(this->close(range.hi, 5));
+    // 65536 * (10 + 10 + 10) m above the slice.
+    EXPECT_NEAR(double(range.lo), -5 - 65536 * 30.0, 4.0);
+    EXPECT_TRUE(this->close(this->range(everything, everything, true).lo, -5));
+    EXPECT_TRUE(this->close(this->range(this->tower, everything).lo, -40));
+    auto const below = this->range(everything, this->ground);
+    EXPECT_TRUE(this->close(below.hi, 3));
+}
+
+TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
+    using T = TypeParam;
+    T const nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();
+    EXPECT_FALSE(this->range({}, this->ground).visible);
+    EXPECT_FALSE(this->range(this->tower, {}).visible);
+    EXPECT_FALSE(this->range({Vec3<T>(nan), Vec3<T>(1)}, this->ground).visible);
+    EXPECT_FALSE(this->range(this->tower, {Vec3<T>(-1), Vec3<T>(infinity)}).visible);
+    EXPECT_FALSE(this->range(this->tower, {Vec3<T>(50), Vec3<T>(60)}).visible);
+    for (T const bad : {nan, infinity, std::numeric_limits<T>::max()}) {
+        LightBox<T> spoiled = this->sides;
+        spoiled.hi.x = bad;
+        EXPECT_FALSE(depth_range(spoiled, this->slice, this->tower, this->ground, false).visible);
+        EXPECT_FALSE(depth_range(this->sides, {T(0), bad, true}, this->tower, this->ground, false).visible);
+    }
+    EXPECT_FALSE(depth_range(this->sides, {T(1), T(0), true}, this->tower, this->ground, false).visible);
+    EXPECT_FALSE(depth_range(this->sides, {T(-5), T(5), false}, this->tower, this->ground, false).visible);
+    EXPECT_TRUE(laws::is_a_range(this->range({}, {})));
+}
+
+TYPED_TEST(DepthRangeOf, PointsAndPlanesHaveAnExtentToo) {
+    using T = TypeParam;
+    Aabb<T> const point{Vec3<T>(1, 0, 2), Vec3<T>(1, 0, 2)};
+    EXPECT_TRUE(this->range(point, point).visible);
+    EXPECT_TRUE(laws::is_a_range(this->range(point, point)));
+    Aabb<T> const floor{Vec3<T>(-100, 0, -100), Vec3<T>(100, 0, 100)};
+    EXPECT_TRUE(this->range(floor, floor).visible);
+    EXPECT_TRUE(laws::is_a_range(this->range(floor, floor)));
+    EXPECT_TRUE(this->close(this->range(point, this->ground).lo, 0));
+}
+
+TYPED_TEST(DepthRangeOf, StepsWidenOutwardToWholeMultiples) {
+    using T = TypeParam;
+    auto const range = in_steps(DepthRange<T>{T(-41.3), T(7.1), true}, T(4));
+    EXPECT_EQ(range.lo, T(-44));
+    EXPECT_EQ(range.hi, T(8));
+    EXPECT_TRUE(range.visible);
+    DepthRange<T> const plain{T(-41.3), T(7.1), true};
+    for (T const step : {T(0), T(-1), std::numeric_limits<T>::quiet_NaN(), T(1e-30L)})
+        EXPECT_EQ(in_steps(plain, step).lo, plain.lo);
+}
+
+// The depth that an unmoving point is stored at does not change while the camera moves within a step.
+TEST(DepthRange, StepsKeepStoredDepthFromFrameToFrame) {
+    int changes = 0;
+    double last = 0;
+    for (int frame = 0; frame < 1000; ++frame) {
+        auto const range = in_steps(DepthRange<double>{-100 + 0.01 * frame, 50 + 0.01 * frame, true}, 16.0);
+        double const stored = (3.0 - range.lo) / (range.hi - range.lo);
+        changes += frame > 0 && stored != last;
+        last = stored;
+    }
+    EXPECT_LE(changes, 2);  // ten metres of motion cross at most one multiple of 16 at either end
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/polytope.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+using namespace shadowmath;
+
+namespace {
+
+using V3 = glm::dvec3;
+using V4 = glm::dvec4;
+
+Aabb<double> const unit_box{V3(0.0), V3(1.0)};
+
+std::size_t distinct_vertices(ConvexBody<double> const& body) {
+    std::set<std::tuple<double, double, double>> seen;
+    for_each_vertex(body, [&](V3 const& v) { seen.emplace(v.x, v.y, v.z); });
+    return seen.size();
+}
+
+}  // namespace
+
+TEST(Polytope, OfABoxHasTwelveEdgesAndEightVertices) {
+    ConvexBody<double> const body = convex_body(corners(unit_box));
+    EXPECT_EQ(body.edge_count, 12);
+    EXPECT_EQ(distinct_vertices(body), 8u);
+    EXPECT_TRUE(laws::is_a_polyhedron(body));
+}
+
+TEST(Polytope, LosesACornerToAPlane) {
+    // x + y + z <= 2.5 cuts (1, 1, 1) off: one triangle more, 12 + 3 edges, 8 - 1 + 3 vertices.
+    ConvexBody<double> const body = clipped(convex_body(corners(unit_box)), V4(-1, -1, -1, 2.5));
+    EXPECT_EQ(body.edge_count, 15);
+    EXPECT_EQ(distinct_vertices(body), 10u);
+    EXPECT_TRUE(laws::is_a_polyhedron(body));
+}
+
+TEST(Polytope, CutThroughTheMiddleIsAHexagonalHalf) {
+    ConvexBody<double> const body = clipped(convex_body(corners(unit_box)), V4(-1, -1, -1, 1.5));
+    EXPECT_EQ(body.edge_count, 15);
+    EXPECT_EQ(distinct_vertices(body), 10u);
+    EXPECT_TRUE(laws::is_a_polyhedron(body));
+}
+
+TEST(Polytope, IsWholeOrGoneWhenThePlaneMissesIt) {
+    ConvexBody<double> const body = convex_body(corners(unit_box));
+    EXPECT_EQ(clipped(body, V4(1, 0, 0, 1)).edge_count, 12);
+    EXPECT_EQ(clipped(body, V4(1, 0, 0, -2)).edge_count, 0);
+    EXPECT_EQ(clipped(clipped(body, V4(1, 0, 0, -2)), V4(0, 1, 0, 0)).edge_count, 0);
+}
+
+TEST(Polytope, FindsCornersWhereThreeCutsMeet) {
+    ConvexBody<double> body = convex_body(corners(unit_box));
+    for (V4 const& cut : {V4(-1, 0, 0, 0.5), V4(0, -1, 0, 0.5), V4(0, 0, -1, 0.5)}) body = clipped(body, cut);
+    bool found = false;
+    for_each_vertex(body, [&](V3 const& v) { found = found || v == V3(0.5); });
+    EXPECT_TRUE(found);
+    EXPECT_EQ(distinct_vertices(body), 8u);
+}
+
+TEST(Polytope, OfAFlatBoxSurvivesBeingCut) {
+    Aabb<double> const ground{V3(-50, 0, -50), V3(50, 0, 50)};
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0, 2, 0), V3(0, -0.2, -1), V3(0, 1, 0)), 1.0, 1.5, 0.1, 30.0);
+    ConvexBody<double> const seen = visible_body(view, ground);
+    EXPECT_TRUE(laws::is_a_polyhedron(seen));
+    double least = 1e9, most = 0.0;
+    for_each_vertex(seen, [&](V3 const& v) {
+        EXPECT_NEAR(v.y, -2.0, 1e-12);
+        least = std::min(least, glm::dot(view.pose.forward, v));
+        most = std::max(most, glm::dot(view.pose.forward, v));
+    });
+    // The lower edge of the picture meets the ground where depth * (sin pitch + cos pitch tan 0.5) = 2.
+    double const cosine = 1 / std::sqrt(1.04), sine = 0.2 * cosine;
+    EXPECT_NEAR(least, 2.0 / (sine + cosine * std::tan(0.5)), 1e-9);
+    EXPECT_NEAR(most, 30.0, 1e-9);
+}
+
+TEST(Polytope, OfABoxWithoutEndIsTheViewItself) {
+    float const most = std::numeric_limits<float>::max();
+    ViewVolume<float> const view = perspective_view(pose_looking(glm::vec3(5, 6, 7), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0)),
+                                                    1.0f, 1.5f, 0.1f, 100.0f);
+    ConvexBody<float> const seen = visible_body(view, Aabb<float>{glm::vec3(-most), glm::vec3(most)});
+    for (glm::vec3 const& corner : corners(view))
+        EXPECT_TRUE(laws::may_contain(seen, corner - view.pose.position, 1e-3f));
+    for_each_vertex(seen, [&](glm::vec3 const& v) {
+        EXPECT_LE(glm::dot(view.pose.forward, v), 100.01f);
+        EXPECT_GE(glm::dot(view.pose.forward, v), 0.099f);
+    });
+}
+
+TEST(Polytope, OfWhatIsNotInViewIsEmpty) {
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0.0), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.0, 0.1, 100.0);
+    EXPECT_EQ(visible_body(view, Aabb<double>{V3(-1, -1, 1), V3(1, 1, 2)}).edge_count, 0);
+    EXPECT_EQ(visible_body(view, Aabb<double>{}).edge_count, 0);
+}

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/vdsm.hpp"
+#include "tests/support/tolerance.hpp"
+
+#include <shadowmath/aliasing.hpp>
+#include <shadowmath/footprint.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace shadowmath;
+
+namespace {
+
+using V2 = glm::dvec2;
+using V3 = glm::dvec3;
+using V4 = glm::dvec4;
+
+double const inf = std::numeric_limits<double>::infinity();
+double const nan_ = std::numeric_limits<double>::quiet_NaN();
+
+ShadowPlane<double> const ground{V3(0, 1, 0), 0.0};
+Aabb<double> const flat_world{V3(-300, 0, -300), V3(300, 0, 300)};
+Aabb<double> const town{V3(-300, 0, -300), V3(300, 12, 300)};
+Light<double> const morning = directional(V3(0.4, -1.0, 0.3));
+
+ViewVolume<double> walker() {
+    return perspective_view(pose_looking(V3(0, 1.7, 0), V3(0.3, -0.1, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 200.0);
+}
+
+V3 ndc(glm::dmat4 const& m, V3 const& p) {
+    V4 const at = m * V4(p, 1.0);
+    return V3(at) / at.w;
+}
+
+// Points of the ground in view, from the feet to the far plane.
+std::vector<V3> ground_in_view(ViewVolume<double> const& view) {
+    std::vector<V3> points;
+    for (double x = -0.95; x <= 0.96; x += 0.19)
+        for (double y = -0.99; y < 0.99; y += 0.02) {
+            V3 const ray = point_at(view, x * view.right, y * view.top, 1.0) - view.pose.position;
+            double const depth = -view.pose.position.y / ray.y;
+            if (ray.y < 0.0 && depth < view.z_far) points.push_back(view.pose.position + ray * depth);
+        }
+    return points;
+}
+
+}  // namespace
+
+TEST(PlaneProjection, OfASunIsTheThesisFormula) {
+    ShadowPlane<double> const plane{V3(0.2, 0.9, -0.1), -2.0};
+    V3 const p(3, 5, -7), light = morning.direction;
+    V3 const q = p - light * ((glm::dot(p, plane.normal) + plane.offset) / glm::dot(light, plane.normal));
+    V4 const image = plane_projection(plane, homogeneous(morning)) * V4(p, 1.0);
+    EXPECT_NEAR(glm::length(V3(image) - q), 0.0, 1e-14 * 30);
+    EXPECT_EQ(image.w, 1.0);
+}
+
+TEST(PlaneProjection, KillsTheLightAndLandsOnThePlane) {
+    for (Light<double> const& light : {morning, spot(V3(2, 9, 1), V3(0, -1, 0.2), 0.7, 50.0)})
+        for (V3 const& p : {V3(1, 2, 3), V3(0, 20, 0), V3(-40, -3, 7)})
+            EXPECT_TRUE(laws::projects_onto(ShadowPlane<double>{V3(0.1, 0.8, 0.2), 0.5}, homogeneous(light), p));
+}
+
+TEST(PlaneProjection, DependsNeitherOnSignNorOnLengthOfPlaneAndLight) {
+    ShadowPlane<double> const plane{V3(0.1, 0.8, 0.2), 0.5};
+    V4 const light(2, 9, 1, 1);
+    glm::dmat4 const once = plane_projection(plane, light);
+    for (double const scale : {-1.0, 2.0, -0.25, 1024.0}) {
+        EXPECT_EQ(plane_projection(plane, light * scale), once);
+        EXPECT_EQ(plane_projection(ShadowPlane<double>{plane.normal * scale, plane.offset * scale}, light), once);
+    }
+    glm::dmat4 const twice = once * once;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(twice[c][r], once[c][r], 1e-14);
+}
+
+TEST(PlaneProjection, OfALightInThePlaneIsTheIdentity) {
+    EXPECT_EQ(plane_projection(ground, V4(1, 0, 0, 0)), glm::dmat4(1.0));
+    EXPECT_EQ(plane_projection(ground, V4(3, 0, 5, 1)), glm::dmat4(1.0));
+    EXPECT_EQ(plane_projection(ShadowPlane<double>{V3(nan_), 0.0}, V4(0, 1, 0, 0)), glm::dmat4(1.0));
+}
+
+TEST(ShadowPlane, AtMeanHeightHalvesWhatReceives) {
+    ShadowPlane<double> const plane = mean_height_plane(Aabb<double>{V3(-5, 2, -5), V3(5, 8, 5)}, V3(0, 3, 0));
+    EXPECT_EQ(plane.normal, V3(0, 1, 0));
+    EXPECT_EQ(plane.offset, -5.0);
+    EXPECT_EQ(mean_height_plane(Aabb<double>{}, V3(0, 1, 0)).offset, 0.0);
+}
+
+TEST(Vdsm, OnThePlaneTheMapIsTheScreen) {
+    VdsmOptions<double> options;
+    options.crop = false;
+    options.margin_texels = 0.0;
+    for (Light<double> const& light : {morning, directional(V3(-3, -1, -2)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.2, 400.0)}) {
+        ViewVolume<double> const view = walker();
+        ShadowMap<double> const map = view_dependent_map(view, light, ground, town, town, options, gl_zero_to_one_clip);
+        ASSERT_TRUE(map.visible);
+        glm::dmat4 const eye = clip_from_world(view, gl_zero_to_one_clip);
+        auto const points = ground_in_view(view);
+        ASSERT_GT(points.size(), 400u);
+        for (V3 const& p : points) {
+            // Entries of the projection are some 10, w some 1; 1e4 roundings of headroom would still be 1e-11.
+            EXPECT_NEAR(ndc(map.clip_from_world, p).x, ndc(eye, p).x, 1e-11);
+            EXPECT_NEAR(ndc(map.clip_from_world, p).y, ndc(eye, p).y, 1e-11);
+        }
+    }
+}
+
+TEST(Vdsm, TexelsOnThePlaneHaveTheSameSizeInPixelsFromNearToFar) {
+    ViewVolume<double> const view = walker();
+    VdsmOptions<double> const options;
+    ShadowMap<double> const map = view_dependent_map(view, morning, ground, flat_world, flat_world, options, gl_clip);
+    ASSERT_TRUE(map.visible);
+    double least = inf, most = 0.0;
+    for (V3 const& p : ground_in_view(view)) {
+        double const here = area(footprint(clip_from_world(view, gl_clip), V2(1600, 1000), map.clip_from_world, 1024.0, p, V3(0, 1, 0)));
+        least = std::min(least, here);
+        most = std::max(most, here);
+    }
+    EXPECT_LT(most / least, 1.0 + 1e-8);
+    // Only the lower half of the picture shows ground, and the map is all of it: finer than the picture's own 1.6.
+    EXPECT_LT(most, 1600.0 * 1000.0 / (1024.0 * 1024.0));
+}
+
+TEST(Vdsm, TexelsOffThePlaneHaveTheSizeOfTheClosedForm) {
+    ViewVolume<double> const view = walker();
+    VdsmOptions<double> options;
+    options.crop = false;
+    options.margin_texels = 0.0;
+    ShadowMap<double> const map = view_dependent_map(view, morning, ground, town, town, options, gl_clip);
+    glm::dmat4 const eye = clip_from_world(view, gl_clip);
+    V3 const e = view.pose.position, light = morning.direction;
+    for (V3 const& p : {V3(2, 0.5, -8), V3(-3, 4, -30), V3(10, 8, -60), V3(1, -0.5, -20)})
+        for (V3 const& m : {V3(0, 1, 0), glm::normalize(V3(0.3, 0.8, 0.4)), V3(0, 0, 1)}) {
+            V3 const q = p - light * (p.y / light.y);
+            double const w_p = eye_depth(view, p), w_q = eye_depth(view, q);
+            double const wanted = std::abs(glm::dot(m, p - e)) * std::abs(light.y) * std::pow(w_q, 3) /
+                                  (e.y * std::abs(glm::dot(m, light)) * std::pow(w_p, 3));
+            EXPECT_NEAR(area(footprint(eye, V2(1024), map.clip_from_world, 1024.0, p, m)) / wanted, 1.0, 1e-8);
+        }
+}
+
+TEST(Vdsm, ObeysTheLawOfShadowMapsInEveryConvention) {
+    for (Light<double> const& light : {morning, directional(V3(0, -0.5, 1)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.2, 400.0)})
+        for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, d3d_clip, reversed(vulkan_clip), reversed(d3d_clip)}) {
+            ShadowMap<double> const map = view_dependent_map(walker(), light, ground, town, town, {}, clip);
+            ASSERT_TRUE(map.visible);
+            EXPECT_TRUE(laws::is_map_of(map.clip_from_world, light, clip));
+        }
+}
+
+TEST(Vdsm, HoldsThePlaneInViewWithItsMarginAndTheCastersAboveIt) {
+    for (Light<double> const& light : {morning, directional(V3(0, -0.5, 1)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.45, 400.0)})
+        for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, reversed(d3d_clip)}) {
+            ViewVolume<double> const view = walker();
+            VdsmOptions<double> const options;
+            ShadowMap<double> const map = view_dependent_map(view, light, ground, town, town, options, clip);
+            ASSERT_TRUE(map.visible);
+            double const margin = options.margin_texels * 2.0 / options.map_size;
+            bool const sun = light.kind == LightKind::directional;
+            for (V3 const& p : ground_in_view(view)) {
+                EXPECT_TRUE(laws::serves(map, p, margin));
+                EXPECT_TRUE(receiver_valid(map, p));
+                V3 const up = sun ? -light.direction * (12.0 / -light.direction.y)
+                                  : (light.position - p) * (12.0 / light.position.y);
+                for (double const part : {0.01, 0.5, 1.0}) {
+                    if (!contains(flat_world, p + V3(up.x, 0, up.z) * part - V3(0, p.y, 0))) continue;
+                    EXPECT_TRUE(laws::serves(map, p + up * part, margin)) << part;
+                    EXPECT_TRUE(laws::keeps_the_order(map, p + up * part, p));
+                }
+            }
+        }
+}
+
+TEST(Vdsm, TellsReceiversThatProjectBehindTheEye) {
+    // A wall ahead, lit from the front: the thesis' "w > 0 always" does not hold.
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0, 1.7, 0), V3(0, 0, -1), V3(0, 1, 0)), 1.2, 1.0, 0.1, 200.0);
+    ShadowMap<double> const map = view_dependent_map(view, directional(V3(0, -0.5, 1)), ground, town, town, {}, gl_clip);
+    ASSERT_TRUE(map.visible);
+    // The ray through height h meets the ground 2 h nearer: at the eye for h = 5 on a wall 10 m ahead.
+    for (double height = 0.0; height < 4.9; height += 0.1) EXPECT_TRUE(receiver_valid(map, V3(0, height, -10)));
+    for (double height = 5.0; height < 12.0; height += 0.1) EXPECT_FALSE(receiver_valid(map, V3(0, height, -10)));
+}
+
+TEST(Vdsm, GivesFloatDepthBuffersTheirPrecisionBackInBothOrders) {
+    for (ClipSpace const clip : {gl_zero_to_one_clip, reversed(gl_zero_to_one_clip)}) {
+        ShadowMap<double> const map = view_dependent_map(walker(), morning, ground, town, town, {}, clip);
+        bool const from_far = clip.depth == DepthOrder::one_to_zero;
+        // At the end that the buffer counts from, the stored value is small whatever w is.
+        for (V3 const& p : {V3(0, from_far ? 0.0 : 12.0, -5), V3(0, from_far ? 0.0 : 12.0, -150)})
+            EXPECT_LT(ndc(map.clip_from_world, p).z, 0.01);
+    }
+}
+
+TEST(Vdsm, RefusesAPlaneThroughTheLightOrTheEyeOrWithoutNormal) {
+    auto const faults = [](ShadowPlane<double> const& plane, Light<double> const& light) {
+        ShadowMap<double> const map = view_dependent_map(walker(), light, plane, town, town, {}, gl_clip);
+        EXPECT_FALSE(map.visible);
+        EXPECT_TRUE(laws::harmless(map));
+        return map.faults;
+    };
+    EXPECT_TRUE(faults(ground, directional(V3(1, 0, 0))).has(Fault::invalid_plane));
+    EXPECT_TRUE(faults(ground, directional(V3(1, -0.049, 0))).has(Fault::invalid_plane));
+    EXPECT_TRUE(faults(ground, spot(V3(3, 0, 3), V3(0, -1, 0), 0.5, 20.0)).has(Fault::invalid_plane));
+    EXPECT_TRUE(faults(plane_through(walker().pose.position, V3(0, 1, 0)), morning).has(Fault::invalid_plane));
+    EXPECT_TRUE(faults(ShadowPlane<double>{V3(0.0), 1.0}, morning).has(Fault::invalid_plane));
+    EXPECT_TRUE(faults(ShadowPlane<double>{V3(nan_), 1.0}, morning).has(Fault::not_finite));
+    EXPECT_TRUE(faults(ShadowPlane<double>{V3(0, 1, 0), inf}, morning).has(Fault::not_finite));
+}
+
+TEST(Vdsm, HasNothingToShowWithoutCastersOrReceiversAndSaysNoFault) {
+    Aabb<double> const behind{V3(-5, 0, 50), V3(5, 1, 60)}, below{V3(-300, -20, -300), V3(300, -10, 300)};
+    for (auto const& [casters, receivers] : {std::pair{Aabb<double>{}, town}, std::pair{town, Aabb<double>{}},
+                                             std::pair{town, behind}, std::pair{below, flat_world}}) {
+        ShadowMap<double> const map = view_dependent_map(walker(), morning, ground, casters, receivers, {}, gl_clip);
+        EXPECT_FALSE(map.visible);
+        EXPECT_FALSE(map.faults.any());
+        EXPECT_TRUE(laws::harmless(map));
+    }
+}
+
+TEST(Vdsm, MendsBoxesWithoutEndAViewWithoutEndAndANearDistanceOfZero) {
+    Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()), glm::vec3(std::numeric_limits<float>::max())};
+    ShadowPlane<float> const floor{glm::vec3(0, 1, 0), 0.0f};
+    Light<float> const sun = directional(glm::vec3(0.4f, -1.0f, 0.3f));
+    ViewVolume<float> view = perspective_view(pose_looking(glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
+    ShadowMap<float> const whole = view_dependent_map(view, sun, floor, endless, endless, {}, gl_clip);
+    EXPECT_TRUE(whole.visible);
+    EXPECT_FALSE(whole.faults.any());
+    EXPECT_TRUE(laws::serves(whole, glm::vec3(0, 0, -20), 0.0f));
+    view.z_near = 0.0f;
+    Aabb<float> const town_box{glm::vec3(-300, 0, -300), glm::vec3(300, 12, 300)};
+    ShadowMap<float> const close = view_dependent_map(view, sun, floor, town_box, town_box, {}, gl_clip);
+    EXPECT_TRUE(close.visible);
+    EXPECT_TRUE(close.faults.has(Fault::near_clamped));
+    view.z_near = 0.1f;
+    view.z_far = std::numeric_limits<float>::infinity();
+    ShadowMap<float> const far = view_dependent_map(view, sun, floor, town_box, town_box, {}, gl_clip);
+    EXPECT_TRUE(far.visible);
+    EXPECT_TRUE(far.faults.has(Fault::far_clamped));
+    EXPECT_TRUE(laws::serves(far, glm::vec3(0, 0, -290), 0.0f));
+}
+
+TEST(Vdsm, RefusesMapsWithoutRoomAndBadOptions) {
+    VdsmOptions<double> options;
+    options.map_size = 6;
+    EXPECT_TRUE(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::map_too_small));
+    options.map_size = 1024;
+    options.margin_texels = 1e9;
+    EXPECT_TRUE(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::map_too_small));
+    options.margin_texels = 2.0;
+    options.reach = 0.0;
+    ShadowMap<double> const clamped = view_dependent_map(walker(), morning, ground, town, town, options, gl_clip);
+    EXPECT_TRUE(clamped.visible);
+    EXPECT_TRUE(clamped.faults.has(Fault::clamped_option));
+    options.reach = nan_;
+    EXPECT_TRUE(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::not_finite));
+}
+
+TEST(Vdsm, ServesOrthographicEyes) {
+    ViewVolume<double> const view = orthographic_view(pose_looking(V3(0, 50, 0), V3(0.1, -1, -0.3), V3(0, 1, 0)), -20.0, 20.0, -20.0, 20.0, 1.0, 100.0);
+    ShadowMap<double> const map = view_dependent_map(view, morning, ground, town, flat_world, {}, gl_clip);
+    ASSERT_TRUE(map.visible);
+    EXPECT_TRUE(laws::is_map_of(map.clip_from_world, morning, gl_clip));
+    EXPECT_TRUE(laws::serves(map, V3(0, 0, -10), 0.0));
+}
