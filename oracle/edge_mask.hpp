@@ -18,7 +18,7 @@ enum class Judge : std::uint8_t {
 // centres: the truth at the pixel centres. samples: the truth on the grid of twice the width and height.
 // Samples within radius_pixels of the pixel's centre are asked; those outside the picture do not exist.
 // Where the extents do not fit together every pixel is edge: nothing can be judged.
-[[nodiscard]] backend::Image<Judge> edge_mask(backend::Image<Truth> const& centres, backend::Image<Truth> const& samples,
-                                              double radius_pixels = 1.25);
+[[nodiscard]] backend::Image<Judge> edge_mask(backend::Image<Truth> const& centres,
+                                              backend::Image<Truth> const& samples, double radius_pixels = 1.25);
 
 }  // namespace shadowmath::oracle

@@ -21,7 +21,8 @@ namespace {
 constexpr double largest_coordinate = 1e9;
 
 bool usable(glm::dvec3 v) {
-    return std::abs(v.x) < largest_coordinate && std::abs(v.y) < largest_coordinate && std::abs(v.z) < largest_coordinate;
+    return std::abs(v.x) < largest_coordinate && std::abs(v.y) < largest_coordinate &&
+           std::abs(v.z) < largest_coordinate;
 }
 
 // Calls body(begin, end) over [0, count) in blocks, on the given number of threads.
@@ -30,7 +31,8 @@ void in_parallel(std::size_t count, int threads, Body&& body) {
     auto const workers = static_cast<std::size_t>(std::max(1, threads));
     std::vector<std::jthread> running;
     for (std::size_t k = 1; k < workers; ++k)
-        running.emplace_back([&body, begin = count * k / workers, end = count * (k + 1) / workers] { body(begin, end); });
+        running.emplace_back(
+            [&body, begin = count * k / workers, end = count * (k + 1) / workers] { body(begin, end); });
     body(std::size_t{0}, count / workers);
 }
 
@@ -176,13 +178,15 @@ backend::Image<Truth> RayOracle::truth(backend::Image<backend::Texel4> const& po
                                        backend::Image<backend::Texel4> const& normal, glm::dvec4 light,
                                        int threads) const {
     backend::Image<Truth> answers(position.extent, Truth::sky);
-    in_parallel(std::min(position.pixels.size(), normal.pixels.size()), threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            backend::Texel4 const& p = position.pixels[i];
-            backend::Texel4 const& n = normal.pixels[i];
-            if (p.w > -1.5f) answers.pixels[i] = truth(glm::dvec3(p.x, p.y, p.z), glm::dvec3(n.x, n.y, n.z), light);
-        }
-    });
+    in_parallel(std::min(position.pixels.size(), normal.pixels.size()), threads,
+                [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) {
+                        backend::Texel4 const& p = position.pixels[i];
+                        backend::Texel4 const& n = normal.pixels[i];
+                        if (p.w > -1.5f)
+                            answers.pixels[i] = truth(glm::dvec3(p.x, p.y, p.z), glm::dvec3(n.x, n.y, n.z), light);
+                    }
+                });
     return answers;
 }
 

@@ -23,9 +23,9 @@ namespace shadowmath::oracle {
 enum class Truth : std::uint8_t { sky, facing_away, shadowed, lit };
 
 // How far off the surface, in metres, a shadow ray starts.
-// A position interpolated in float errs by a few roundings of its largest coordinate (2^-24 relative each; the software
-// rasterisers need up to about thirty), hence 32 of them, and never less than 0.05 mm. That is 0.2 mm at 100 m from the
-// origin and 2 mm at 1 km: less than a pixel wherever such a point is seen, and less than the thinnest wire in the scenes.
+// A position interpolated in float errs by some roundings of its largest coordinate, 2^-24 relative each: 32 of them
+// are allowed for, and never less than 0.05 mm. That is 0.2 mm at 100 m from the origin and 2 mm at 1 km, thinner than
+// the thinnest wire of the scenes.
 [[nodiscard]] double ray_offset(glm::dvec3 point) noexcept;
 
 struct Hit {
@@ -38,7 +38,7 @@ struct Hit {
 
 class RayOracle {
 public:
-    // Copies the triangles of the objects that cast; those with a bad index or a position that is not finite are left out.
+    // Copies the triangles of the objects that cast, but for those with a bad index or a position that is not finite.
     // Throws std::runtime_error when Embree cannot start.
     explicit RayOracle(backend::Scene const& scene);
     ~RayOracle();

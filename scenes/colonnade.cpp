@@ -69,7 +69,8 @@ private:
                 for (int i = 0; i < cells / tiles; ++i) {
                     std::array const p{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
                     for (auto const& k : {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}})
-                        mesh_.coloured_triangle({p[k[0]], p[k[1]], p[k[2]]}, {normal(p[k[0]]), normal(p[k[1]]), normal(p[k[2]])},
+                        mesh_.coloured_triangle({p[k[0]], p[k[1]], p[k[2]]},
+                                                {normal(p[k[0]]), normal(p[k[1]]), normal(p[k[2]])},
                                                 {colour(p[k[0]]), colour(p[k[1]]), colour(p[k[2]])});
                 }
             mesh_.end_object();
@@ -118,7 +119,8 @@ private:
             double const in = 0.38 * (4 - step);
             double const top = 0.15 * (step + 1);
             double const front = z + 0.2 - in;
-            double const wide = (side % 2 == 0 ? half + 0.2 - in : half + 0.2 - in - 0.38);  // corners belong to the long sides
+            double const wide =
+                (side % 2 == 0 ? half + 0.2 - in : half + 0.2 - in - 0.38);  // corners belong to the long sides
             mesh_.box({-wide, -0.5, front}, {wide, top, front + 0.40 + (step == 4 ? gallery + 1.0 : 0.0)});
         }
         mesh_.end_object();
@@ -168,8 +170,14 @@ private:
             double const high = z + gallery + 1.9;
             auto const y = [&](double at) { return beam_y + 0.04 + 0.34 * (at - low); };
             mesh_.colour = srgb(0xA85A40);
-            mesh_.hexahedron({glm::dvec3(-half, y(low) - 0.06, low), {half, y(low) - 0.06, low}, {-half, y(low) + 0.10, low}, {half, y(low) + 0.10, low},
-                              {-half, y(high) - 0.06, high}, {half, y(high) - 0.06, high}, {-half, y(high) + 0.10, high}, {half, y(high) + 0.10, high}});
+            mesh_.hexahedron({glm::dvec3(-half, y(low) - 0.06, low),
+                              {half, y(low) - 0.06, low},
+                              {-half, y(low) + 0.10, low},
+                              {half, y(low) + 0.10, low},
+                              {-half, y(high) - 0.06, high},
+                              {half, y(high) - 0.06, high},
+                              {-half, y(high) + 0.10, high},
+                              {half, y(high) + 0.10, high}});
             int const rows = static_cast<int>(half * (detail_ == 0 ? 0.5 : detail_ == 1 ? 2.4 : 3.4));
             for (int i = 0; i <= rows; ++i) {
                 double const x = -half + 0.15 + (2.0 * half - 0.3) * i / rows;
@@ -271,7 +279,8 @@ private:
                 double const t = static_cast<double>(k) / lanterns;
                 mesh_.frame = standing_at(a + (b - a) * t - glm::dvec3(0.0, 4.0 * 1.6 * t * (1.0 - t) + 0.42, 0.0));
                 mesh_.colour = k % 2 == 0 ? srgb(0xE9B24C) : srgb(0xF3E6C6);
-                mesh_.lathe({{0.0, 0.0}, {0.10, 0.02}, {0.16, 0.16}, {0.11, 0.31}, {0.02, 0.34}, {0.012, 0.44}}, circle(6 + 3 * detail_));
+                mesh_.lathe({{0.0, 0.0}, {0.10, 0.02}, {0.16, 0.16}, {0.11, 0.31}, {0.02, 0.34}, {0.012, 0.44}},
+                            circle(6 + 3 * detail_));
             }
             mesh_.frame = {};
             mesh_.end_object();
@@ -279,7 +288,8 @@ private:
         for (double const z : {-court_z - 0.2, court_z + 0.2}) {  // three thin cables along the beams
             mesh_.colour = srgb(0x3A352E);
             for (double const y : {6.2, 6.5, 6.9})
-                add_wire(mesh_, {-court_x - 0.5, y, z}, {court_x + 0.5, y, z}, 0.25, 0.005 + 0.005 * (y - 6.0), segments, 4);
+                add_wire(mesh_, {-court_x - 0.5, y, z}, {court_x + 0.5, y, z}, 0.25, 0.005 + 0.005 * (y - 6.0),
+                         segments, 4);
             mesh_.end_object();
         }
     }
@@ -338,7 +348,8 @@ private:
             view_toward("down", {14.0, 27.0, 17.0}, {0.0, 0.0, -1.0}, 52.0, 80.0, sun_travel(60.0, 40.0)),
             view_toward("up", {-16.0, 1.5, -15.2}, {-9.0, 7.4, -22.0}, 66.0, 80.0, sun_travel(35.0, 70.0)),
             view_toward("low_sun", {25.0, 1.8, -1.5}, {-30.0, 3.2, 0.5}, 56.0, 100.0, sun_travel(12.0, 176.0)),
-            view_toward("side", {-27.0, platform + 1.7, court_z + 4.0}, {24.0, 3.4, court_z + 2.2}, 62.0, 90.0, sun_travel(20.0, -80.0)),
+            view_toward("side", {-27.0, platform + 1.7, court_z + 4.0}, {24.0, 3.4, court_z + 2.2}, 62.0, 90.0,
+                        sun_travel(20.0, -80.0)),
             view_toward("noon", {-20.5, 1.7, -6.5}, {8.0, 3.0, 4.0}, 58.0, 100.0, sun_travel(80.0, 30.0)),
             spot,
         };

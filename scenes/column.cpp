@@ -11,8 +11,13 @@ void add_column(MeshBuilder& mesh, Random& random, double height, int detail, do
     Ring const round = circle(8 + 14 * detail);
     Ring const shaft = detail == 0 ? circle(12) : fluted(20, 1 + 2 * detail, 0.075);
     mesh.box({-plinth, -0.3, -plinth}, {plinth, 0.35 * r, plinth});
-    mesh.lathe({{1.30 * r, 0.34 * r}, {1.34 * r, 0.48 * r}, {1.28 * r, 0.62 * r}, {1.10 * r, 0.68 * r}, {1.12 * r, 0.80 * r},
-                {1.16 * r, 0.88 * r}, {1.00 * r, 0.98 * r}},
+    mesh.lathe({{1.30 * r, 0.34 * r},
+                {1.34 * r, 0.48 * r},
+                {1.28 * r, 0.62 * r},
+                {1.10 * r, 0.68 * r},
+                {1.12 * r, 0.80 * r},
+                {1.16 * r, 0.88 * r},
+                {1.00 * r, 0.98 * r}},
                round);
     double const foot = 0.95 * r;
     double const neck = (height - 1.3 * r) * standing;
@@ -30,7 +35,8 @@ void add_column(MeshBuilder& mesh, Random& random, double height, int detail, do
         Ring const ring = circle(12);
         for (std::size_t i = 0; i < ring.size(); ++i) {
             auto const at = [&](RingPoint const& p) {
-                return glm::dvec3(p.point.x * top * 0.97, neck + tilt * (1.0 + p.point.x) + 0.1 * tilt * std::sin(5.0 * p.point.y),
+                return glm::dvec3(p.point.x * top * 0.97,
+                                  neck + tilt * (1.0 + p.point.x) + 0.1 * tilt * std::sin(5.0 * p.point.y),
                                   p.point.y * top * 0.97);
             };
             glm::dvec3 const a = at(ring[i]);
@@ -41,8 +47,13 @@ void add_column(MeshBuilder& mesh, Random& random, double height, int detail, do
         return;
     }
     double const cap = height - 1.3 * r;
-    mesh.lathe({{0.83 * r, cap - 0.02 * r}, {0.92 * r, cap + 0.10 * r}, {0.86 * r, cap + 0.20 * r}, {0.90 * r, cap + 0.40 * r},
-                {1.20 * r, cap + 0.80 * r}, {1.26 * r, cap + 0.92 * r}, {0.0, cap + 0.92 * r}},
+    mesh.lathe({{0.83 * r, cap - 0.02 * r},
+                {0.92 * r, cap + 0.10 * r},
+                {0.86 * r, cap + 0.20 * r},
+                {0.90 * r, cap + 0.40 * r},
+                {1.20 * r, cap + 0.80 * r},
+                {1.26 * r, cap + 0.92 * r},
+                {0.0, cap + 0.92 * r}},
                round);
     mesh.box({-1.30 * r, cap + 0.90 * r, -1.30 * r}, {1.30 * r, height, 1.30 * r});
 }
@@ -63,7 +74,14 @@ void add_balustrade(MeshBuilder& mesh, glm::dvec3 from, glm::dvec3 to, int detai
         mesh.frame = frame.moved(from + (to - from) * (static_cast<double>(i) / balusters));
         if (detail == 0) mesh.lathe({{0.08, 0.2}, {0.09, 0.4}, {0.04, 0.75}, {0.07, 0.92}}, ring);
         else
-            mesh.lathe({{0.085, 0.2}, {0.085, 0.27}, {0.05, 0.30}, {0.095, 0.46}, {0.08, 0.56}, {0.042, 0.76}, {0.07, 0.82}, {0.07, 0.92}},
+            mesh.lathe({{0.085, 0.2},
+                        {0.085, 0.27},
+                        {0.05, 0.30},
+                        {0.095, 0.46},
+                        {0.08, 0.56},
+                        {0.042, 0.76},
+                        {0.07, 0.82},
+                        {0.07, 0.92}},
                        ring);
     }
     mesh.frame = frame;
@@ -71,8 +89,18 @@ void add_balustrade(MeshBuilder& mesh, glm::dvec3 from, glm::dvec3 to, int detai
 
 void add_urn(MeshBuilder& mesh, double height, int detail) {
     double const h = height;
-    mesh.lathe({{0.20 * h, -0.05}, {0.20 * h, 0.05 * h}, {0.09 * h, 0.12 * h}, {0.08 * h, 0.24 * h}, {0.20 * h, 0.34 * h}, {0.31 * h, 0.58 * h},
-                {0.33 * h, 0.74 * h}, {0.24 * h, 0.82 * h}, {0.36 * h, 0.95 * h}, {0.36 * h, h}, {0.26 * h, h}, {0.0, 0.86 * h}},
+    mesh.lathe({{0.20 * h, -0.05},
+                {0.20 * h, 0.05 * h},
+                {0.09 * h, 0.12 * h},
+                {0.08 * h, 0.24 * h},
+                {0.20 * h, 0.34 * h},
+                {0.31 * h, 0.58 * h},
+                {0.33 * h, 0.74 * h},
+                {0.24 * h, 0.82 * h},
+                {0.36 * h, 0.95 * h},
+                {0.36 * h, h},
+                {0.26 * h, h},
+                {0.0, 0.86 * h}},
                circle(10 + 8 * detail));
 }
 

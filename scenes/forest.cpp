@@ -44,7 +44,9 @@ private:
         return swell + rough - 0.25 * (1.0 - glm::smoothstep(0.6, 2.4, off_path(x, z)));
     }
 
-    void stand(double x, double z, double yaw, double lift = 0.0) { mesh_.frame = standing_at({x, land(x, z) + lift, z}, yaw); }
+    void stand(double x, double z, double yaw, double lift = 0.0) {
+        mesh_.frame = standing_at({x, land(x, z) + lift, z}, yaw);
+    }
 
     void add_land() {
         int const cells = detail_ == 0 ? 56 : detail_ == 1 ? 98 : 280;
@@ -59,7 +61,8 @@ private:
         };
         auto const normal = [&](glm::dvec3 p) {
             double const d = 0.2;
-            return glm::dvec3(land(p.x - d, p.z) - land(p.x + d, p.z), 2.0 * d, land(p.x, p.z - d) - land(p.x, p.z + d));
+            return glm::dvec3(land(p.x - d, p.z) - land(p.x + d, p.z), 2.0 * d,
+                              land(p.x, p.z - d) - land(p.x, p.z + d));
         };
         mesh_.frame = {};
         for (int tile = 0; tile < tiles * tiles; ++tile) {
@@ -72,7 +75,8 @@ private:
                 for (int i = 0; i < per_tile; ++i) {
                     std::array const p{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
                     for (auto const& k : {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}})
-                        mesh_.coloured_triangle({p[k[0]], p[k[1]], p[k[2]]}, {normal(p[k[0]]), normal(p[k[1]]), normal(p[k[2]])},
+                        mesh_.coloured_triangle({p[k[0]], p[k[1]], p[k[2]]},
+                                                {normal(p[k[0]]), normal(p[k[1]]), normal(p[k[2]])},
                                                 {colour(p[k[0]]), colour(p[k[1]]), colour(p[k[2]])});
                 }
             mesh_.end_object();
@@ -89,9 +93,11 @@ private:
             double const x = random_.between(-land_edge + 3.0, land_edge - 3.0);
             double const z = random_.between(-land_edge + 3.0, land_edge - 3.0);
             glm::dvec2 const here{x, z};
-            bool const crowded = std::ranges::any_of(standing, [&](glm::dvec2 q) { return glm::length(q - here) < apart; });
+            bool const crowded =
+                std::ranges::any_of(standing, [&](glm::dvec2 q) { return glm::length(q - here) < apart; });
             if (crowded || off_path(x, z) < 2.6 || std::hypot(x, z) < clearing_radius) continue;
-            if (random_.chance(0.85 * glm::smoothstep(22.0, 70.0, std::hypot(x, z)))) continue;  // denser where one looks
+            if (random_.chance(0.85 * glm::smoothstep(22.0, 70.0, std::hypot(x, z))))
+                continue;  // denser where one looks
             standing.push_back(here);
             double const yaw = random_.between(0.0, 2.0 * pi);
             double const height = random_.between(10.0, 18.0);
@@ -182,7 +188,7 @@ private:
             view_toward("street", on_path(34.0, 1.7), on_path(8.0, 2.6), 58.0, 90.0, sun_travel(35.0, 200.0)),
             view_toward("hill", at(-34.0, 46.0, 27.0), at(4.0, -6.0, 2.0), 50.0, 120.0, sun_travel(35.0, 110.0)),
             view_toward("down", at(2.0, 9.0, 15.0), at(-2.0, 0.0, 0.0), 58.0, 60.0, sun_travel(60.0, 150.0)),
-            view_toward("up", on_path(22.0, 1.5), at(3.0, 10.0, 13.0), 68.0, 60.0, sun_travel(35.0, 330.0)),
+            view_toward("up", on_path(22.0, 1.5), at(4.0, 9.0, 9.0), 64.0, 60.0, sun_travel(35.0, 330.0)),
             view_toward("low_sun", at(6.5, -1.5, 1.7), at(-12.0, 1.0, 2.6), 60.0, 80.0, sun_travel(12.0, 172.0)),
             view_toward("side", at(-1.5, 8.5, 1.7), at(0.5, -14.0, 2.2), 58.0, 80.0, sun_travel(20.0, 5.0)),
             view_toward("noon", on_path(-30.0, 1.7), on_path(-6.0, 2.0), 56.0, 80.0, sun_travel(80.0, 60.0)),

@@ -48,7 +48,7 @@ double add_gabled(MeshBuilder& mesh, Gabled const& g, glm::dvec3 wall, glm::dvec
     mesh.colour = roof;
     double const end = a + 0.6 * o;
     for (double const s : {1.0, -1.0}) {
-        auto const top = [&](double z) { return ridge - slope * std::abs(z); };
+        auto const top = [&](double z) { return ridge - g.slope * std::abs(z); };
         double const z_lo = s > 0.0 ? 0.0 : -(b + o);
         double const z_hi = s > 0.0 ? b + o : 0.0;
         std::array<glm::dvec3, 8> slab;
@@ -65,7 +65,8 @@ double add_gabled(MeshBuilder& mesh, Gabled const& g, glm::dvec3 wall, glm::dvec
 
 // A board on a wall, z outward: a box without the face that the wall hides.
 void add_board(MeshBuilder& mesh, glm::dvec2 lo, glm::dvec2 hi, double thickness) {
-    std::array const back{glm::dvec3(lo, 0.0), glm::dvec3(hi.x, lo.y, 0.0), glm::dvec3(hi, 0.0), glm::dvec3(lo.x, hi.y, 0.0)};
+    std::array const back{glm::dvec3(lo, 0.0), glm::dvec3(hi.x, lo.y, 0.0), glm::dvec3(hi, 0.0),
+                          glm::dvec3(lo.x, hi.y, 0.0)};
     auto const front = [&](std::size_t i) { return back[i] + glm::dvec3(0.0, 0.0, thickness); };
     mesh.quad(front(0), front(1), front(2), front(3));
     for (std::size_t i = 0; i < 4; ++i) {
@@ -110,7 +111,8 @@ void add_chimney(MeshBuilder& mesh, Paint const& paint, glm::dvec3 foot, double 
     mesh.frame = frame;
 }
 
-void add_dormer(MeshBuilder& mesh, Paint const& paint, double x, double z, double roof_height, double slope, int detail) {
+void add_dormer(MeshBuilder& mesh, Paint const& paint, double x, double z, double roof_height, double slope,
+                int detail) {
     Frame const frame = mesh.frame;
     double const half = 0.75;
     double const eaves = 1.25;
@@ -136,10 +138,12 @@ void add_house(MeshBuilder& mesh, Random& random, HousePlan const& plan) {
     double ridge = 0.0;
     if (plan.gable_in_front) {
         mesh.frame = centre.turned(half_pi);
-        ridge = add_gabled(mesh, {half_depth, half_width, eaves, slope, overhang, below_ground}, paint.wall, paint.roof);
+        ridge =
+            add_gabled(mesh, {half_depth, half_width, eaves, slope, overhang, below_ground}, paint.wall, paint.roof);
     } else {
         mesh.frame = centre;
-        ridge = add_gabled(mesh, {half_width, half_depth, eaves, slope, overhang, below_ground}, paint.wall, paint.roof);
+        ridge =
+            add_gabled(mesh, {half_width, half_depth, eaves, slope, overhang, below_ground}, paint.wall, paint.roof);
         if (plan.detail > 0 && random.chance(0.45)) {
             double const z = half_depth * 0.62;
             double const x = random.between(-0.4, 0.4) * half_width;
@@ -214,9 +218,14 @@ void add_church(MeshBuilder& mesh, Random& random, int detail) {
                 mesh.frame = mesh.frame.moved({-x - 2.2, -8.2, 0.1});
             }
             mesh.colour = paint.stone;  // a buttress, sloping out toward its foot
-            mesh.hexahedron({glm::dvec3(x - 0.5, below_ground, -0.1), {x + 0.5, below_ground, -0.1}, {x - 0.5, 9.5, -0.1},
-                             {x + 0.5, 9.5, -0.1}, {x - 0.5, below_ground, 1.6}, {x + 0.5, below_ground, 1.6},
-                             {x - 0.5, 7.0, 0.9}, {x + 0.5, 7.0, 0.9}});
+            mesh.hexahedron({glm::dvec3(x - 0.5, below_ground, -0.1),
+                             {x + 0.5, below_ground, -0.1},
+                             {x - 0.5, 9.5, -0.1},
+                             {x + 0.5, 9.5, -0.1},
+                             {x - 0.5, below_ground, 1.6},
+                             {x + 0.5, below_ground, 1.6},
+                             {x - 0.5, 7.0, 0.9},
+                             {x + 0.5, 7.0, 0.9}});
         }
     }
 

@@ -246,8 +246,10 @@ void MeshBuilder::sheet_from(std::span<glm::dvec3 const> points, int columns, in
     };
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
-            triangle({at(i, j), at(i + 1, j), at(i + 1, j + 1)}, {normal(i, j), normal(i + 1, j), normal(i + 1, j + 1)});
-            triangle({at(i, j), at(i + 1, j + 1), at(i, j + 1)}, {normal(i, j), normal(i + 1, j + 1), normal(i, j + 1)});
+            triangle({at(i, j), at(i + 1, j), at(i + 1, j + 1)},
+                     {normal(i, j), normal(i + 1, j), normal(i + 1, j + 1)});
+            triangle({at(i, j), at(i + 1, j + 1), at(i, j + 1)},
+                     {normal(i, j), normal(i + 1, j + 1), normal(i, j + 1)});
         }
     }
 }

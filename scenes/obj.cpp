@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -274,7 +276,8 @@ NamedScene read_obj(std::istream& text, std::string const& name) {
 NamedScene load_obj(std::filesystem::path const& file) {
     std::ifstream text(file, std::ios::binary);
     std::error_code ignored;
-    if (!text || std::filesystem::is_directory(file, ignored)) throw std::runtime_error(file.string() + ": cannot be read");
+    if (!text || std::filesystem::is_directory(file, ignored))
+        throw std::runtime_error(file.string() + ": cannot be read");
     return read_obj(text, file.string());
 }
 

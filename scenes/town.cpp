@@ -17,8 +17,10 @@ constexpr double pi = 3.14159265358979323846;
 class Town {
 public:
     Town(SceneSize size, std::uint64_t seed)
-        : detail_(static_cast<int>(size)), random_(seed),
-          ground_(size == SceneSize::small ? 3 : size == SceneSize::medium ? 5 : 9, size == SceneSize::large ? 5 : 3, seed) {}
+        : detail_(static_cast<int>(size)), random_(seed), ground_(size == SceneSize::small    ? 3
+                                                                  : size == SceneSize::medium ? 5
+                                                                                              : 9,
+                                                                  size == SceneSize::large ? 5 : 3, seed) {}
 
     NamedScene build() {
         ground_.add_to(mesh_, detail_);
@@ -39,7 +41,9 @@ private:
     static constexpr double block_u = TownGround::pitch_u / 2 - TownGround::half_street - TownGround::pavement;
     static constexpr double block_v = TownGround::pitch_v / 2 - TownGround::half_street - TownGround::pavement;
 
-    void stand(double u, double v, double yaw, double lift = TownGround::kerb) { mesh_.frame = ground_.frame(u, v, yaw, lift); }
+    void stand(double u, double v, double yaw, double lift = TownGround::kerb) {
+        mesh_.frame = ground_.frame(u, v, yaw, lift);
+    }
 
     void add_tree(double u, double v, double lift) {
         double const yaw = random_.between(0.0, 2.0 * pi);
@@ -112,7 +116,8 @@ private:
         for (int k = 0; k < 2 + 2 * detail_; ++k) {  // bunting from the middle to the corners
             double const angle = 2.0 * pi * (k + 0.35) / (2 + 2 * detail_);
             add_bunting(mesh_, ground_.world(-7.0, 2.0, high + 0.6),
-                        ground_.world(-7.0 + 20.0 * std::cos(angle), 2.0 + 15.0 * std::sin(angle), high), 1.1, 14 + 4 * detail_);
+                        ground_.world(-7.0 + 20.0 * std::cos(angle), 2.0 + 15.0 * std::sin(angle), high), 1.1,
+                        14 + 4 * detail_);
             mesh_.end_object();
         }
         std::array const mast{ground_.world(-7.0, 2.0, 3.8), ground_.world(-7.0, 2.0, high + 1.1)};
@@ -166,14 +171,15 @@ private:
                     mesh_.frame = {};
                     for (int k = 0; k < 2; ++k)
                         add_railing(mesh_, ground_.world(centre - 4.0 + 4.0 * k, v, TownGround::kerb),
-                                    ground_.world(centre + 4.0 * k, v, TownGround::kerb), detail_ == 0 ? 0.3 : 0.14, detail_);
+                                    ground_.world(centre + 4.0 * k, v, TownGround::kerb), detail_ == 0 ? 0.3 : 0.14,
+                                    detail_);
                     mesh_.end_object();
                 }
                 if (std::abs(i) > 1 || std::abs(j) > 2) continue;
                 for (double const u : {-8.0, 6.0}) {
                     mesh_.frame = {};
-                    add_bunting(mesh_, ground_.world(centre + u, street - 6.5, 5.2), ground_.world(centre + u + 2.0, street + 6.5, 5.2),
-                                0.7, 12);
+                    add_bunting(mesh_, ground_.world(centre + u, street - 6.5, 5.2),
+                                ground_.world(centre + u + 2.0, street + 6.5, 5.2), 0.7, 12);
                     mesh_.end_object();
                 }
             }
@@ -215,7 +221,8 @@ private:
                 double const yaw = random_.between(0.0, 2.0 * pi);
                 double const height = random_.between(7.0, 13.0);
                 glm::dvec2 const p = centre + glm::dvec2(du, dv);
-                if (on_road(p) || (std::abs(p.x) < ground_.half_u() + 8.0 && std::abs(p.y) < ground_.half_v() + 8.0)) continue;
+                if (on_road(p) || (std::abs(p.x) < ground_.half_u() + 8.0 && std::abs(p.y) < ground_.half_v() + 8.0))
+                    continue;
                 stand(p.x, p.y, yaw, 0.0);
                 if (conifers) add_conifer(mesh_, random_, height * 1.25, 0);
                 else add_broadleaf(mesh_, random_, height, 0);
@@ -241,14 +248,17 @@ private:
         double const u = ground_.half_u();
         double const v = ground_.half_v();
         return {
-            view_toward("street", at(-30.0, street + 1.4, 1.7), at(20.0, street - 1.5, 3.4), 58.0, 180.0, sun_travel(24.0, 105.0)),
+            view_toward("street", at(-30.0, street + 1.4, 1.7), at(20.0, street - 1.5, 3.4), 58.0, 180.0,
+                        sun_travel(24.0, 105.0)),
             view_toward("square", at(-21.5, 9.0, 1.75), at(14.0, -3.0, 6.8), 62.0, 150.0, sun_travel(35.0, 165.0)),
-            view_toward("hill", at(-u - 60.0, v + 62.0, 44.0), at(10.0, -10.0, 4.0), 46.0, 600.0, sun_travel(35.0, 20.0)),
+            view_toward("hill", at(-u - 60.0, v + 62.0, 44.0), at(10.0, -10.0, 4.0), 46.0, 600.0,
+                        sun_travel(35.0, 20.0)),
             view_toward("down", at(-32.0, 32.0, 52.0), at(-4.0, -2.0, 0.0), 52.0, 200.0, sun_travel(60.0, 150.0)),
-            view_toward("up", at(27.5, -6.5, 1.6), at(38.5, 0.5, 14.0), 68.0, 160.0, sun_travel(35.0, 200.0)),
+            view_toward("up", at(28.5, -6.0, 1.6), at(38.5, 0.5, 11.5), 66.0, 160.0, sun_travel(35.0, 200.0)),
             view_toward("low_sun", at(-33.0, v + 44.0, 3.2), at(8.0, 0.0, 8.0), 54.0, 250.0, sun_travel(12.0, -72.0)),
             view_toward("side", at(-22.5, 11.0, 1.75), at(20.0, 1.0, 5.0), 60.0, 150.0, sun_travel(20.0, -80.0)),
-            view_toward("noon", at(-20.0, lane - 3.6, 8.0), at(26.0, lane + 9.0, 2.6), 56.0, 300.0, sun_travel(80.0, 40.0)),
+            view_toward("noon", at(-20.0, lane - 3.6, 8.0), at(26.0, lane + 9.0, 2.6), 56.0, 300.0,
+                        sun_travel(80.0, 40.0)),
         };
     }
 

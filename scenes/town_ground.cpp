@@ -88,14 +88,17 @@ glm::dvec3 TownGround::colour(Cover cover, double u, double v) const {
         case Cover::street: return srgb(0x9F978B) * mottle;
         case Cover::pavement: return srgb(0xC2B8A6) * mottle;
         case Cover::square: return srgb(0xCDBD9F) * mottle;
-        case Cover::garden: return glm::mix(srgb(0x7E9B4E), srgb(0x93A65A), 0.5 + 0.5 * noise(p / 9.0, seed_ + 7)) * mottle;
+        case Cover::garden:
+            return glm::mix(srgb(0x7E9B4E), srgb(0x93A65A), 0.5 + 0.5 * noise(p / 9.0, seed_ + 7)) * mottle;
         case Cover::field: break;
     }
     // Beyond the town, strips of meadow, wheat and fallow; the hills wear plain grass.
-    static std::array const crops{srgb(0x8CA454), srgb(0x7C9A4C), srgb(0xCDB869), srgb(0xA9AE5E), srgb(0xB59A6A), srgb(0x6F9048)};
+    static std::array const crops{srgb(0x8CA454), srgb(0x7C9A4C), srgb(0xCDB869),
+                                  srgb(0xA9AE5E), srgb(0xB59A6A), srgb(0x6F9048)};
     auto const strip = static_cast<std::int64_t>(std::floor((u + 0.3 * v) / 85.0)) * 131 +
                        static_cast<std::int64_t>(std::floor((v - 0.2 * u) / 60.0));
-    glm::dvec3 const crop = crops[static_cast<std::size_t>(mix_bits(static_cast<std::uint64_t>(strip) + seed_) % crops.size())];
+    glm::dvec3 const crop =
+        crops[static_cast<std::size_t>(mix_bits(static_cast<std::uint64_t>(strip) + seed_) % crops.size())];
     double const wild = glm::smoothstep(380.0, 620.0, std::hypot(u, v) + 60.0 * noise(p / 90.0, seed_ + 8));
     return glm::mix(crop, srgb(0x76914F), wild) * mottle;
 }

@@ -20,7 +20,8 @@ public:
     static constexpr double edge = 1000.0;   // the land ends here
 
     // Odd counts, so that the block in the middle is the square.
-    TownGround(int blocks_u, int blocks_v, std::uint64_t seed) : blocks_u_(blocks_u), blocks_v_(blocks_v), seed_(seed) {}
+    TownGround(int blocks_u, int blocks_v, std::uint64_t seed)
+        : blocks_u_(blocks_u), blocks_v_(blocks_v), seed_(seed) {}
 
     [[nodiscard]] int blocks_u() const { return blocks_u_; }
     [[nodiscard]] int blocks_v() const { return blocks_v_; }

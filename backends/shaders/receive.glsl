@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+//
 // What the receiver pass reads: backends/backend.hpp's FrameConstants in std140, member by member.
 
 const int max_maps = 8;

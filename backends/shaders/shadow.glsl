@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+//
 // The shadow lookup: from a point with a plane through it to the share of light that reaches it, 0 to 1.
 // Comparisons are filtered, never depths (Reeves, Salesin, Cook 1987). Each is written so that NaN ends lit.
 

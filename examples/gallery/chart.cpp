@@ -154,7 +154,7 @@ std::string aliasing_chart() {
     }
     double const best = closed_form::logarithmic_along(z_near, z_far);
     svg.line(x.from_place, y.at(best), x.to_place, y.at(best), "bound");
-    svg.text(x.from_place + 6, y.at(best) - 6, "start", "tick", "one logarithmic map, the optimum: ln(far/near) = " + figure(best));
+    svg.text(x.from_place + 6, y.at(best) - 6, "start", "tick halo", "one logarithmic map, the optimum: ln(far/near) = " + figure(best));
     return svg.str();
 }
 
@@ -185,7 +185,7 @@ std::string technique_chart(std::span<Technique const> techniques, Results const
     }
     std::ranges::sort(bars, {}, &Bar::mean);
 
-    double const left = 268.0, right = width - 70.0, row = 26.0;
+    double const left = 300.0, right = width - 84.0, row = 26.0;
     double const scale = (right - left) / highest;
     double const bottom = 40.0 + row * static_cast<double>(bars.size());
     Svg svg(width, bottom + 12.0, "Mis-shadowed pixels off edges for each technique, percent");
@@ -200,14 +200,12 @@ std::string technique_chart(std::span<Technique const> techniques, Results const
         std::string const percent = figure(100.0 * bar.mean) + " %";
         svg.text(left - 10, y + 14, "end", "label", bar.technique->title);
         svg.rect(left, y + 2, std::max(bar.mean * scale, 1.0), row - 8, "bar", bar.technique->id + ": " + percent);
-        double end = bar.mean;
         for (std::size_t i = 0; i < bar.of_scene.size(); ++i) {
             if (bar.of_scene[i] < 0.0) continue;
-            end = std::max(end, bar.of_scene[i]);
             svg.dot(left + bar.of_scene[i] * scale, y + row / 2 - 2, 4.5, "scene s" + std::to_string(i % 4),
                     scenes[i] + ": " + figure(100.0 * bar.of_scene[i]) + " %");
         }
-        svg.text(left + end * scale + 10, y + 14, "start", "tick", percent);
+        svg.text(width - 8, y + 14, "end", "label", percent);
         y += row;
     }
     return svg.str();

@@ -56,6 +56,7 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
     app.add_option("--scene", settings.scenes, "a built-in scene to show, or none; may be repeated (default: all)")
         ->check(CLI::IsMember(choices))
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_flag("--quick", settings.quick, "fewer views and techniques, smaller scenes and pictures");
     app.add_option("--out", settings.out, "folder to write; an earlier gallery there is replaced")->capture_default_str();

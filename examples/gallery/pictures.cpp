@@ -35,6 +35,25 @@ Colour heat_at(double t) {
 
 double lightness(backend::Rgba8 p) { return (0.299 * p.r + 0.587 * p.g + 0.114 * p.b) / 255.0; }
 
+struct DepthRange {
+    float lo, hi;
+};
+
+// The middle 96 % of what was drawn, so that a steeple or a distant hill does not take the contrast from the rest.
+DepthRange contrast_range(backend::Image<float> const& depth) {
+    std::vector<float> drawn;
+    for (std::size_t i = 0; i < depth.pixels.size(); i += 7)
+        if (depth.pixels[i] < 1.0f) drawn.push_back(depth.pixels[i]);
+    if (drawn.empty()) return {0.0f, 1.0f};
+    auto const quantile = [&](double q) {
+        auto const place = drawn.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(drawn.size() - 1));
+        std::nth_element(drawn.begin(), place, drawn.end());
+        return *place;
+    };
+    float const lo = quantile(0.02);
+    return {lo, std::max(quantile(0.98), lo + 1e-9f)};
+}
+
 // A palette laid out as bands: `shade` runs from 0 to 1 within each.
 class Bands {
 public:
@@ -142,10 +161,7 @@ IndexedPicture maps_picture(std::span<backend::Image<float> const> depths,
     for (int map = 0; map < count; ++map) {
         auto const& depth = depths[static_cast<std::size_t>(map)];
         auto const& read = touched[static_cast<std::size_t>(map)];
-        float lo = 1.0f, hi = 0.0f;
-        for (float const d : depth.pixels)
-            if (d < 1.0f) lo = std::min(lo, d), hi = std::max(hi, d);
-        float const range = std::max(hi - lo, 1e-9f);
+        auto const [lo, hi] = contrast_range(depth);
         for (int y = 0; y < shown; ++y) {
             for (int x = 0; x < shown; ++x) {
                 int const from_x = x * size / shown, to_x = std::max((x + 1) * size / shown, from_x + 1);
@@ -157,7 +173,7 @@ IndexedPicture maps_picture(std::span<backend::Image<float> const> depths,
                 bool const is_drawn = nearest < 1.0f;
                 Band const band = is_drawn ? (is_read ? drawn_read : drawn) : is_read ? empty_read : empty;
                 picture.indices.at(map * (shown + gap) + x, y) =
-                    bands.index(band, is_drawn ? 1.0 - double((nearest - lo) / range) : 0.0);
+                    bands.index(band, is_drawn ? 1.0 - double((nearest - lo) / (hi - lo)) : 0.0);
             }
         }
     }

@@ -36,8 +36,8 @@ Staging::Staging(fs::path const& destination) {
         throw std::runtime_error(destination.string() + ": exists and is not a gallery; it will not be overwritten");
     fs::create_directories(destination_.parent_path(), error);
     demand(error, destination_.parent_path(), "cannot be made");
-    std::string const name = "." + destination_.filename().string() + ".unfinished-" + std::to_string(::getpid());
-    fs::path const folder = destination_.parent_path() / name;
+    fs::path folder = destination_.parent_path() / ".";
+    folder += destination_.filename().string() + ".unfinished-" + std::to_string(::getpid());
     fs::create_directory(folder, error);
     demand(error, folder, "cannot be made");
     folder_ = folder;

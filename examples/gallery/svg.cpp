@@ -14,7 +14,8 @@ std::string number(double value) {
 }
 
 std::string attribute(std::string_view name, std::string_view value) {
-    return " " + std::string(name) + "=\"" + escaped(value) + "\"";
+    std::string text = " ";
+    return text.append(name).append("=\"").append(escaped(value)).append("\"");
 }
 
 std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }

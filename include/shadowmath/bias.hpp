@@ -131,25 +131,30 @@ template <class T>
     if (!all_finite(normal) || !all_finite(to_light) || !all_finite(&texel_metres, 1) || !(texel_metres > T(0)))
         return T(0);
     T const sine = glm::length(glm::cross(normal, to_light));
-    return T(1.41421356237309504880168872420969808L) * kernel_reach_texels<T>(filter_radius) * texel_metres *
-           (sine < T(1) ? sine : T(1));
+    T const reach_metres = kernel_reach_texels<T>(filter_radius) * texel_metres;
+    T const offset = T(1.41421356237309504880168872420969808L) * reach_metres * (sine < T(1) ? sine : T(1));
+    return all_finite(&offset, 1) ? offset : T(0);
 }
 
 namespace detail {
 
-// Of stored depth per texel on a plane at half a right angle to the light, the most that the map has anywhere. NDC x
-// = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as w, its depth shrinks as 1 / w, and
-// only the least of |X - x W| over the map is left.
+// In a map so shallow that a texel of a steep plane spans its depth a million times over, nothing can be told apart.
 template <class T>
-[[nodiscard]] inline T diagonal_slope(Mat4<T> const& canonical, int map_size, T gain_per_metre) noexcept {
+inline constexpr T steepest_slope = T(1e6);
+
+// The most stored depth that a texel can span anywhere in the map when w times depth changes by at most this per metre
+// across the light. NDC x = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as w, its depth
+// shrinks as 1 / w, and only the least of |X - x W| over the map is left.
+template <class T>
+[[nodiscard]] inline T steepest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
     Vec3<T> const w_row(row(canonical, 3));
     T steepest = T(0);
     for (int axis = 0; axis < 2; ++axis) {
         Vec3<T> const side(row(canonical, axis));
         T const nearest = bounded_quotient(glm::dot(side, w_row), glm::dot(w_row, w_row), T(1));
         T const change = safe_normalize(side - w_row * nearest).length;
-        T const diagonal = bounded_quotient(T(2) * gain_per_metre, change * T(map_size), T(1));
-        steepest = diagonal > steepest ? diagonal : steepest;
+        T const spanned = bounded_quotient(T(2) * change_per_metre, change * T(map_size), steepest_slope<T>);
+        steepest = spanned > steepest ? spanned : steepest;
     }
     return steepest;
 }
@@ -180,15 +185,16 @@ template <class T>
     return all_finite(&value, 1) && value >= T(0) ? value : fallback;
 }
 
-// Everything but the metres.
+// Everything but the metres. Per metre, w times depth changes by `along` in the direction of the light, and by `across`
+// on a plane at a right angle to it.
 template <class T>
-[[nodiscard]] inline MapBias<T> bias_of_kernel(Mat4<T> const& canonical, int map_size, T gain_per_metre,
+[[nodiscard]] inline MapBias<T> bias_of_kernel(Mat4<T> const& canonical, int map_size, T along, T across,
                                                BiasOptions<T> const& options) noexcept {
     MapBias<T> bias;
-    // One step where the map is written and one where it is read. Shaders compute in float whatever T is, so the
-    // terms of a clip coordinate, as large as its offset from the world's origin, leave a few roundings behind, in
-    // depth and texels.
-    T const rounding = T(8) * T(std::numeric_limits<float>::epsilon());
+    // One step where the map is written and one where it is read. Shaders compute in float whatever T is, and a clip
+    // coordinate is a sum of terms as large as its offset from the world's origin: four roundings of half an epsilon
+    // when the map is written, four when it is read.
+    T const rounding = T(4) * T(std::numeric_limits<float>::epsilon());
     bias.constant = T(2) * option(options.depth_step, T(0));
     bias.per_inverse_w = rounding * std::abs(canonical[3][2]);
     bias.slope_texels = option(options.texels, T(0));
@@ -197,8 +203,9 @@ template <class T>
         T const x = std::abs(canonical[3][0]), y = std::abs(canonical[3][1]);
         bias.slope_texels += rounding * (x > y ? x : y) * T(map_size) * T(0.5);
     }
-    T const limit = option(options.steepest, T(20)) * diagonal_slope(canonical, map_size, gain_per_metre);
-    bias.slope_limit = limit > T(0) && limit < T(1) ? limit : T(1);
+    T const change = option(options.steepest, T(20)) * along + across;
+    T const limit = steepest_texel(canonical, map_size, change);
+    bias.slope_limit = limit > T(0) ? limit : T(1);
     return bias;
 }
 
@@ -224,7 +231,12 @@ template <class T>
     Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
     T const metres = detail::option(options.metres, T(0));
     if (light.kind == LightKind::directional) {
-        MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, options);
+        // A warp's own w makes depth lean on planes across the light: by Z - depth * W, of which the ends are the most.
+        Vec3<T> const z_row(row(canonical, 2)), w_row(row(canonical, 3));
+        Vec3<T> const lean = z_row - light.direction * glm::dot(z_row, light.direction);
+        T const at_near_end = glm::length(lean), at_far_end = glm::length(lean - w_row);
+        T const across = at_near_end > at_far_end ? at_near_end : at_far_end;
+        MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, across, options);
         bias.per_inverse_w += gain * metres;
         if (detail::is_affine(canonical)) {
             bias.constant += bias.per_inverse_w;
@@ -234,7 +246,8 @@ template <class T>
     }
     detail::InverseW<T> const ends = detail::ends_of_axis(canonical, light, gain);
     T const w_per_metre = safe_normalize(Vec3<T>(row(canonical, 3))).length;
-    MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain * w_per_metre * ends.nearest, options);
+    T const at_near_end = gain * w_per_metre * ends.nearest;
+    MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, at_near_end, at_near_end, options);
     T const curve = gain * w_per_metre * metres;
     bias.constant -= curve * ends.nearest * ends.farthest;
     bias.per_inverse_w += curve * (ends.nearest + ends.farthest);

@@ -10,7 +10,8 @@
 //     |_________|   <- hi      (GL_DEPTH_CLAMP, depthClampEnable): casters above lo are then drawn flat at depth 0.
 //
 // Source: clipping the scene's box against the map's four sides is that of Microsoft's "Common techniques to improve
-// shadow depth maps". Departures: polygons for triangles, and boxes without an end are cut before they are computed with.
+// shadow depth maps". Departures: polygons for triangles, and boxes without an end are cut before they are computed
+// with.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -29,7 +30,7 @@ inline namespace v0 {
 
 template <class T>
 struct DepthRange {
-    T lo = T(0);           // metres along the light, from the world origin
+    T lo = T(0);  // metres along the light, from the world origin
     T hi = T(1);
     bool visible = false;  // false: nothing is there, or nothing that could shadow it
 };
@@ -66,8 +67,8 @@ template <class T>
     Vec4<T> const x = coordinate(pose.right), y = coordinate(pose.up), depth = coordinate(pose.forward);
     Vec4<T> const one(T(0), T(0), T(0), T(1));
     Vec4<T> const& spread = view.kind == ViewKind::perspective ? depth : one;
-    return {x - view.left * spread, view.right * spread - x, y - view.bottom * spread, view.top * spread - y,
-            depth - view.z_near * one, view.z_far * one - depth};
+    return {x - view.left * spread, view.right * spread - x,   y - view.bottom * spread,
+            view.top * spread - y,  depth - view.z_near * one, view.z_far * one - depth};
 }
 
 }  // namespace detail
@@ -121,22 +122,22 @@ template <class T>
 //   receivers_slice  the first and last depth of the slice, as fit_box finds them
 //   casters, receivers   world boxes. Either empty, or nowhere inside: not visible, and no fault.
 //
-// A caster box that goes on and on toward the light (+-FLT_MAX) is cut 65536 times the size of sides and slice above the
-// slice: a depth buffer tells nothing apart in more. Give true bounds, or pancake.
+// A caster box that goes on and on toward the light (+-FLT_MAX) is cut 65536 times the size of sides and slice above
+// the slice: a depth buffer tells nothing apart in more. Give true bounds, or pancake.
 template <class T>
 [[nodiscard]] inline DepthRange<T> depth_range(LightBox<T> const& sides, DepthRange<T> const& receivers_slice,
                                                Aabb<T> const& casters, Aabb<T> const& receivers,
                                                bool pancake) noexcept {
     DepthRange<T> const& slice = receivers_slice;
-    bool const finite = all_finite(sides.lo) && all_finite(sides.hi) && all_finite(&slice.lo, 1) &&
-                        all_finite(&slice.hi, 1);
+    bool const finite =
+        all_finite(sides.lo) && all_finite(sides.hi) && all_finite(&slice.lo, 1) && all_finite(&slice.hi, 1);
     if (!finite || !detail::has_unit_axes(sides.basis) || !slice.visible || !(slice.lo <= slice.hi)) return {};
     T largest = std::fmax(std::abs(slice.lo), std::abs(slice.hi));
     for (T const side : {sides.lo.x, sides.lo.y, sides.hi.x, sides.hi.y}) largest = std::fmax(largest, std::abs(side));
     if (!(largest <= detail::farthest_metres<T>)) return {};
     // Light space is an orthographic view from the world origin.
-    ViewVolume<T> shaft = orthographic_view({Vec3<T>(T(0)), sides.basis.x, sides.basis.y, sides.basis.depth}, sides.lo.x,
-                                            sides.hi.x, sides.lo.y, sides.hi.y, slice.lo, slice.hi);
+    ViewVolume<T> shaft = orthographic_view({Vec3<T>(T(0)), sides.basis.x, sides.basis.y, sides.basis.depth},
+                                            sides.lo.x, sides.hi.x, sides.lo.y, sides.hi.y, slice.lo, slice.hi);
     DepthRange<T> const received = depths_inside(receivers, shaft);
     if (!received.visible) return {};
     T const size = (sides.hi.x - sides.lo.x) + (sides.hi.y - sides.lo.y) + (slice.hi - slice.lo);

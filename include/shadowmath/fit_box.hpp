@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The smallest light-space box around a body: up to twice the texels of the sphere's square, at the price of a size and
-// a place that change with every turn of the camera, so that shadow edges crawl. For maps that are drawn once, for cameras
-// that stand still, and under a temporal filter; else fit_sphere and texel_grid.
+// a place that change with every turn of the camera, so that shadow edges crawl. For maps that are drawn once, for
+// cameras that stand still, and under a temporal filter; else fit_sphere and texel_grid.
 //
 // Source: any "fit to frustum" since GPU Gems 3 chapter 10. Departure: the filter's margin is part of the fit.
 #pragma once
@@ -36,8 +36,9 @@ inline void widen(T& lo, T& hi, T least) noexcept {
 
 // Each corner lies at least `margin_texels` texels inside the four sides, and some corner exactly so at each of them;
 // depth runs from the first corner to the last. A flat body is widened to a texel of its largest extent, and to what
-// the scalar type can tell apart. Corners that are not finite or beyond 1e18 m, and axes that are not unit, give the box [-1, 1]^2 x [0, 1]; a map
-// without room for the margin (faults_of_margin) is treated as one with a single usable texel.
+// the scalar type can tell apart. Corners that are not finite or beyond 1e18 m, and axes that are not unit, give the
+// box [-1, 1]^2 x [0, 1]; a map without room for the margin (faults_of_margin) is treated as one with a single usable
+// texel.
 template <class T>
 [[nodiscard]] inline LightBox<T> fit_box(LightBasis<T> const& basis, std::array<Vec3<T>, 8> const& corners_in_world,
                                          int map_size, T margin_texels) noexcept {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Crop: zoom a light's own projection onto a box in its NDC. In post-projective light space a sun and a spot are the same
-// case, since every light ray runs along the depth axis there. fit_spot is the whole way for a spot light; for a sun use
-// fit_sphere or fit_box, which need no first projection.
+// Crop: zoom a light's own projection onto a box in its NDC. In post-projective light space a sun and a spot are the
+// same case, since every light ray runs along the depth axis there. fit_spot is the whole way for a spot light; for a
+// sun use fit_sphere or fit_box, which need no first projection.
 //
-// Boxes here are in CANONICAL light NDC (clip_space.hpp): x and y in [-1, 1], y up, depth 0 at the light's near plane and
-// 1 at its far one. clip_from_canonical goes to the left of everything, at the end.
+// Boxes here are in CANONICAL light NDC (clip_space.hpp): x and y in [-1, 1], y up, depth 0 at the light's near plane
+// and 1 at its far one. clip_from_canonical goes to the left of everything, at the end.
 //
-// Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10.1.3 (2007). Departures: the split's own corners are used, not those of
-// its world box; what is behind the light is cut before the division by w; the near plane of a spot comes from its casters,
-// in metres, because the depth of a projection with a tiny near plane has lost them.
+// Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10.1.3 (2007). Departures: the split's own corners are used, not those
+// of its world box; what is behind the light is cut before the division by w; the near plane of a spot comes from its
+// casters, in metres, because the depth of a projection with a tiny near plane has lost them.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -39,8 +39,8 @@ template <class T>
 }
 
 // Only where a caster and a receiver of the split share light rays can there be a shadow. `receivers` are those of the
-// split, cut to it. Points outside must read as lit. Where no ray is shared, the split's own box: harmless, and a sign to
-// leave the map out.
+// split, cut to it. Points outside must read as lit. Where no ray is shared, the split's own box: harmless, and a sign
+// to leave the map out.
 template <class T>
 [[nodiscard]] inline Aabb<T> scene_dependent_box(Aabb<T> const& split, Aabb<T> const& receivers,
                                                  Aabb<T> const& casters) noexcept {
@@ -74,25 +74,43 @@ template <class T>
     LightBasis<T> const basis = light_basis(light.direction);
     T const angle = std::fmin(std::fmax(light.half_angle_radians, T(1e-3)), T(1.5));
     T const side = std::tan(angle);
-    ViewVolume<T> view{{light.position, basis.x, basis.y, basis.depth}, -side, side, -side, side, z_near, light.range,
+    ViewVolume<T> view{{light.position, basis.x, basis.y, basis.depth},
+                       -side,
+                       side,
+                       -side,
+                       side,
+                       z_near,
+                       light.range,
                        ViewKind::perspective};
     view.z_near = std::fmin(std::fmax(z_near, light.range / T(1 << 20)), light.range / T(2));
     return view;
 }
 
+namespace detail {
+
+// The far corners of the cone's pyramid: tan(1.5) is 14.1.
+template <class T>
+[[nodiscard]] inline bool is_within_reach(Light<T> const& light) noexcept {
+    return std::fmax(T(20) * light.range, largest_of(light.position)) <= farthest_metres<T> &&
+           light.range >= least_metres<T>;
+}
+
+}  // namespace detail
+
 // The whole cone in one map. nowhere() for a light that is unusable, and for a sun.
 template <class T>
 [[nodiscard]] inline Mat4<T> spot_clip_from_world(Light<T> const& light, T const& z_near, ClipSpace clip) noexcept {
-    if (light.kind != LightKind::spot || unusable(light) || !all_finite(&z_near, 1)) return nowhere<T>();
+    if (light.kind != LightKind::spot || unusable(light) || !all_finite(&z_near, 1) || !detail::is_within_reach(light))
+        return nowhere<T>();
     return clip_from_world(spot_view(light, z_near), clip);
 }
 
-// The map of what the eye sees in this slice of the lit cone: every receiver there, with `margin_texels` texels to spare
-// on each side, and every caster between it and the light. Zooms in as far as slice and receivers allow, at most until
-// the whole cone would be map_size maps wide.
+// The map of what the eye sees in this slice of the lit cone: every receiver there, with `margin_texels` texels to
+// spare on each side, and every caster between it and the light. Zooms in as far as slice and receivers allow, at most
+// until the whole cone would be map_size maps wide.
 //
-// Lost: what is nearer to the light than 1/4096 of its range. An infinite z_far is cut at the end of the cone.
-// Not visible, and no fault: no caster or no receiver in the lit part of the slice. Faults of slice, light and margin are
+// Lost: what is nearer to the light than 1/4096 of its range. An infinite z_far is cut at the end of the cone. Not
+// visible, and no fault: no caster or no receiver in the lit part of the slice. Faults of slice, light and margin are
 // handed on; a sun is clamped_option.
 template <class T>
 [[nodiscard]] inline ShadowMap<T> fit_spot(ViewVolume<T> const& slice, Light<T> const& light, Aabb<T> const& casters,
@@ -103,10 +121,8 @@ template <class T>
     map.faults = faults_of(slice) | faults_of(light) | faults_of_margin(map_size, margin_texels);
     if (light.kind != LightKind::spot) map.faults |= Fault::clamped_option;
     if (!all_finite(casters) || !all_finite(receivers)) map.faults |= Fault::not_finite;
-    // The far corners of the cone's pyramid: tan(1.5) is 14.1.
-    T const reach = std::fmax(T(20) * light.range, detail::largest_of(light.position));
     bool const usable = !map.faults.has(Fault::not_finite) && !map.faults.has(Fault::map_too_small) &&
-                        light.kind == LightKind::spot && !unusable(light) && reach <= detail::farthest_metres<T>;
+                        light.kind == LightKind::spot && !unusable(light) && detail::is_within_reach(light);
     if (!usable || is_empty(casters) || is_empty(receivers)) return map;
 
     // Beyond the end of the cone the eye sees nothing lit.
@@ -128,18 +144,20 @@ template <class T>
     lit.z_near = std::fmin(caster_depth.lo, receiver_depth.lo) * (T(1) - T(1) / T(1024));
     lit.z_far = lit.z_far * (T(1) + T(1) / T(1024));
     Mat4<T> const canonical = clip_from_world(lit, ClipSpace{});
-    Aabb<T> const cone{Vec3<T>(T(-1), T(-1), T(0)), Vec3<T>(T(1))};
+    // NOTE: depth is known from above, and better: a wide slice's own, cut at a tiny w, is mostly rounding.
     auto const in_cone = [&](std::array<Vec3<T>, 8> const& body) {
-        return intersect(cone, projected_bounds(canonical, body, lit.z_near));
+        Aabb<T> bounds = projected_bounds(canonical, body, lit.z_near);
+        if (is_empty(bounds)) return bounds;
+        bounds.lo.z = T(0);
+        bounds.hi.z = T(1);
+        return intersect(bounds, Aabb<T>{Vec3<T>(T(-1), T(-1), T(0)), Vec3<T>(T(1))});
     };
     Aabb<T> const split = in_cone(seen_corners);
     if (is_empty(split)) return map;
     // Casters do not narrow the sides: then every receiver would still be right, but not every one inside.
     Aabb<T> box = intersect(split, in_cone(corners(received)));
     Aabb<T> const shared = intersect(box, in_cone(corners(intersect(casters, bounds_of(corners(lit))))));
-    if (!(shared.lo.x <= shared.hi.x && shared.lo.y <= shared.hi.y)) return map;
-    box.lo.z = T(0);
-    box.hi.z = T(1);
+    if (is_empty(shared)) return map;
     T const usable_part = usable_texels(map_size, margin_texels) / T(map_size);
     for (int axis = 0; axis < 2; ++axis) {
         detail::widen(box.lo[axis], box.hi[axis], T(2) / T(map_size));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The smallest ball around a slice: the fit that does not change when the camera turns. Put it on a texel grid and shadow
-// edges stand still. A ball wastes what a box would use (about half of the texels, near half a right angle more); use
-// fit_box where crawling edges do not show.
+// The smallest ball around a slice: the fit that does not change when the camera turns. Put it on a texel grid and
+// shadow edges stand still. A ball wastes what a box would use (about half of the texels, near half a right angle
+// more); use fit_box where crawling edges do not show.
 //
 // Source: the closed form for symmetric perspective is that of lxjk, "Tight bounding sphere for cascaded shadow maps"
-// (2017). Departures: orthographic and off-centre views (stereo, jitter, tiles) get the exact smallest ball too, and the
-// radius is computed in view space and scaled, so that it is the same to the last bit wherever the camera stands.
+// (2017). Departures: orthographic and off-centre views (stereo, jitter, tiles) get the exact smallest ball too, and
+// the radius is computed in view space and scaled, so that it is the same to the last bit wherever the camera stands.
 //
 //   far face decides           both faces decide
 //    ________                    ______
@@ -97,7 +97,8 @@ template <class T>
     Vec3<T> const &p = slice.pose.position, &f = slice.pose.forward, &r = slice.pose.right, &u = slice.pose.up;
     T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
                              std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
-    if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) || !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
+    if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) ||
+        !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
         (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
         return {};
     T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;

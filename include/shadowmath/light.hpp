@@ -113,9 +113,10 @@ struct LightBasis {
 
 // Orthonormal to 4 ulp for every direction, and continuous for all but one: light that travels straight along +y.
 // The axes are those of light straight along -y, carried along the shortest turn. No up vector to be parallel to, and a
-// sun that crosses the zenith makes no jump.
+// sun that crosses the zenith makes no jump. `travel` is unit; one that is not finite gives the default axes.
 template <class T>
 [[nodiscard]] inline LightBasis<T> light_basis(Vec3<T> const& travel) noexcept {
+    if (!all_finite(travel)) return {};
     Vec3<T> const& d = travel;
     // 1 + cos of the turn; past a right angle written so that nothing cancels.
     T const flat = d.x * d.x + d.z * d.z;

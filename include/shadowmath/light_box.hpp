@@ -8,6 +8,7 @@
 
 #include <shadowmath/clip_space.hpp>
 #include <shadowmath/config.hpp>
+#include <shadowmath/finite.hpp>
 #include <shadowmath/light.hpp>
 
 namespace shadowmath {
@@ -22,14 +23,14 @@ struct LightBox {
     T depth_hi = T(1);       // 1 of the map
 };
 
-// Metres that one texel covers across the light, in x and y.
+// Metres that one texel covers across the light, in x and y; of a map without texels, as if it had one.
 template <class T>
 [[nodiscard]] inline Vec2<T> texel_metres(LightBox<T> const& box, int map_size) noexcept {
-    return (box.hi - box.lo) / T(map_size);
+    return (box.hi - box.lo) / T(map_size > 1 ? map_size : 1);
 }
 
-// The box fills the map: its corners land on those of the clip volume. Affine, w = 1 everywhere. All four extents must
-// be positive; fits see to that.
+// The box fills the map: its corners land on those of the clip volume. Affine, w = 1 everywhere. A box without
+// extent, or so small that its inverse overflows, maps everything outside; fits see to it that theirs are not.
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(LightBox<T> const& box, ClipSpace clip) noexcept {
     // Centre and half extent instead of a product of matrices: one rounding each.
@@ -41,7 +42,8 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(axis(box.basis.x, box.lo.x, box.hi.x), axis(box.basis.y, box.lo.y, box.hi.y),
                   Vec4<T>(box.basis.depth * depth_scale, -box.depth_lo * depth_scale), Vec4<T>(T(0), T(0), T(0), T(1)));
-    return clip_from_canonical<T>(clip) * canonical;
+    bool const has_extent = box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
+    return has_extent && all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
 }
 
 // The same map for points given relative to `origin` (a camera-relative renderer): M * translate(origin). Compute it in

@@ -40,7 +40,8 @@ struct MapRows {
     Vec4<T> x;
     Vec4<T> y;
     Vec4<T> w;
-    Vec4<T> along;           // grows by 1 per light vector; its unit is free
+    Vec4<T> along;           // along . source = 1: grows with the light, in any unit
+    Vec4<T> source;          // the light itself, homogeneous and relative to the eye
     bool parallel = true;    // a sun: w is the same all along a light ray
     T along_floor = std::numeric_limits<T>::lowest();  // casters below are cut away: what keeps them off a light's position
     T w_min = T(0);          // > 0; receivers at or below are not the map's
@@ -69,10 +70,18 @@ template <class T>
                          Fault::bad_pose | Fault::map_too_small;
     door.stop = (door.faults.bits & fatal.bits) != 0 || is_empty(casters) || is_empty(receivers);
     if (door.stop) return door;
-    door.view.pose = orthonormalized(view.pose);
-    door.light.direction = safe_normalize(light.direction).direction;
     // No coordinate beyond it can be multiplied in a float; no scene has one.
     constexpr T farthest = T(1e12);
+    auto const beyond = [](Vec3<T> const& p) {
+        return !(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest);
+    };
+    if (beyond(view.pose.position) || beyond(light.position) || !(light.range <= farthest)) {
+        door.faults |= Fault::precision_lost;
+        door.stop = true;
+        return door;
+    }
+    door.view.pose = orthonormalized(view.pose);
+    door.light.direction = safe_normalize(light.direction).direction;
     if (is_positive_infinity(&view.z_far) || view.z_far > farthest) {
         T end = T(0);
         for (Vec3<T> const& corner : corners(receivers)) end = glm::max(end, eye_depth(door.view, corner));
@@ -120,8 +129,8 @@ template <class T>
 }  // namespace detail
 
 // Every vertex of `receivers` (relative to the eye) with w >= w_min lies inside the map, `margin_texels` from its sides,
-// with stored depth in [0, 1]; so does every caster between it and the light, as deep as 1024 times the receivers' distance
-// from the eye. Farther ones need depth clamp. Not visible, and no fault: no receivers, or no caster above them.
+// with stored depth in [0, 1]; so does every caster between it and the light; those of a sun as far as 1024 times the
+// receivers' distance from the eye. Farther ones need depth clamp. Not visible, and no fault: no receivers, or no caster above them.
 // precision_lost: so far from the world's origin that the matrix moves by more than half a texel from one
 // representable place to the next; rebase it (light_box.hpp), or use double.
 template <class T>
@@ -144,20 +153,23 @@ template <class T>
     });
     Region<T> region;
     if (rows.crop) {
-        // A side as thin as rounding is no side; 64: as many roundings stand behind a corner.
-        T const noise = T(64) * eps * glm::max(glm::max(std::abs(x.lo), std::abs(x.hi)),
-                                               glm::max(std::abs(y.lo), std::abs(y.hi)));
+        // A side as thin as the rounding of its points is no side; 64: as many roundings stand behind a corner.
+        T const steepest = glm::max(glm::length(Vec3<T>(rows.x)), glm::length(Vec3<T>(rows.y))) / w.lo;
+        T const noise = T(64) * eps * (radius + glm::length(eye)) * steepest;
         region = widened(Region<T>{Vec2<T>(x.lo, y.lo), Vec2<T>(x.hi, y.hi)}, glm::max(rows.least_width, noise));
     }
     region = with_margin(region, map_size, glm::max(margin_texels, T(0)));
+    // A narrow region magnifies what rounding has left of the light in a row; taken out once more, the law holds again.
     auto const zoom = [&rows](Vec4<T> const& row, T lo, T hi) {
-        return row * (T(2) / (hi - lo)) - rows.w * ((hi + lo) / (hi - lo));
+        Vec4<T> const zoomed = row * (T(2) / (hi - lo)) - rows.w * ((hi + lo) / (hi - lo));
+        return zoomed - rows.along * glm::dot(zoomed, rows.source);
     };
     rows.x = zoom(rows.x, region.lo.x, region.hi.x);
     rows.y = zoom(rows.y, region.lo.y, region.hi.y);
 
+    T const to_light = rows.parallel ? T(0) : glm::length(Vec3<T>(rows.source));
     ConvexBody<T> const shaft =
-        detail::casters_in(rows, eye, casters, T(1024) * radius,
+        detail::casters_in(rows, eye, casters, T(1024) * radius + T(2) * to_light,
                            along.hi + T(1e-3) * (along.hi - along.lo) +
                                T(64) * eps * glm::max(std::abs(along.lo), std::abs(along.hi)));
     if (shaft.edge_count == 0) return map;

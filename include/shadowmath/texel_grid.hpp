@@ -12,8 +12,8 @@
 // Budget: the window may stand half a texel off on either side, and `margin_texels` are the filter's, so
 // texel = 2 R / (map_size - 2 margin - 1). The plain 2 R / map_size cuts the sphere.
 //
-// Source: Valient, "Stable rendering of cascaded shadow maps", ShaderX6 (2008). Departures: integer origins, the budget,
-// and no matrix that rounds on the way.
+// Source: Valient, "Stable rendering of cascaded shadow maps", ShaderX6 (2008). Departures: integer origins, the
+// budget, and no matrix that rounds on the way.
 //
 // How far from the origin: a point keeps its place in its texel to 1/64 within 2^15 texels of the world origin in float
 // (300 m with centimetre texels) and 2^44 in double (1e11 m). Beyond: precision_lost. Rebase, or use double.
@@ -37,12 +37,12 @@ inline namespace v0 {
 template <class T>
 struct TexelGrid {
     LightBasis<T> basis;
-    std::int64_t x = 0;          // lower-left texel of the window, texels from the world origin in light space
+    std::int64_t x = 0;  // lower-left texel of the window, texels from the world origin in light space
     std::int64_t y = 0;
     T texel_metres = T(1);
-    int map_size = 1;            // texels along a side of the window
+    int map_size = 1;  // texels along a side of the window
     Faults faults;
-    bool visible = false;        // false: no window, and no map from it
+    bool visible = false;  // false: no window, and no map from it
 };
 
 // The window holds the sphere and `margin_texels` texels around it. Its place is a whole number of texels, its texel
@@ -71,7 +71,8 @@ template <class T>
     // Four roundings of a coordinate lie between a world point and its texel: 2^-6 / 4.
     if (!(reach * Exact(eps) <= Exact(1) / 256)) grid.faults |= Fault::precision_lost;
     constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
-    if (!(reach < whole_numbers) || !(texel >= detail::least_metres<T>) || !(sphere.radius <= detail::farthest_metres<T>))
+    if (!(reach < whole_numbers) || !(texel >= detail::least_metres<T>) ||
+        !(sphere.radius <= detail::farthest_metres<T>))
         return grid;
     grid.basis = basis;
     grid.x = static_cast<std::int64_t>(x);
@@ -93,8 +94,8 @@ template <class T>
 }
 
 // The window fills the map; depth_lo goes to the near end and depth_hi to the far one. Offsets come from the integers,
-// not from metres, so texel (x, y) of the grid is texel (0, 0) of the map however far the origin is. nowhere() where the
-// grid is not visible, or the depths are not increasing.
+// not from metres, so texel (x, y) of the grid is texel (0, 0) of the map however far the origin is. nowhere() where
+// the grid is not visible, or the depths are not increasing.
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(TexelGrid<T> const& grid, T const& depth_lo, T const& depth_hi,
                                              ClipSpace clip) noexcept {

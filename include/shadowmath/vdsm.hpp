@@ -63,11 +63,15 @@ template <class T>
 [[nodiscard]] inline Mat4<T> plane_projection(ShadowPlane<T> const& plane, Vec4<T> const& homogeneous_light) noexcept {
     if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(homogeneous_light))
         return Mat4<T>(T(1));
-    Vec4<T> const pi(plane.normal, plane.offset);
-    T const height = glm::dot(pi, homogeneous_light);
-    if (height == T(0)) return Mat4<T>(T(1));
-    Mat4<T> const projection = Mat4<T>(T(1)) - glm::outerProduct(homogeneous_light, pi / height);
-    return all_finite(projection) ? projection : Mat4<T>(T(1));
+    // Over its largest coordinate, each is as good as before and no product over- or underflows.
+    auto const scaled = [](Vec4<T> const& v) {
+        T const largest = glm::max(glm::max(std::abs(v.x), std::abs(v.y)), glm::max(std::abs(v.z), std::abs(v.w)));
+        return largest > T(0) ? Vec4<T>(v.x / largest, v.y / largest, v.z / largest, v.w / largest) : v;
+    };
+    Vec4<T> const pi = scaled(Vec4<T>(plane.normal, plane.offset)), light = scaled(homogeneous_light);
+    T const height = glm::dot(pi, light);
+    if (!(std::abs(height) > T(1e-30))) return Mat4<T>(T(1));
+    return Mat4<T>(T(1)) - glm::outerProduct(light, pi / height);
 }
 
 template <class T>
@@ -78,7 +82,7 @@ struct VdsmOptions {
     T w_min = T(0);           // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: the view's near
     T reach = T(2);           // how far beyond the screen the map goes, in half screens: receivers off the plane project
                               // there. Those beyond are not the map's. >= 1
-    T least_sine = T(0.05);   // of the angle between a sun and the plane: below it, invalid_plane
+    T least_sine = T(0.05);   // of the angle between the plane and a sun, or an orthographic view: below it, invalid_plane
 };
 
 // One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half
@@ -86,7 +90,7 @@ struct VdsmOptions {
 // is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
 //
 // invalid_plane, not visible: the plane has no normal, contains the light (least_sine; spots: 1e-4 of z_far), or
-// passes the eye closer than 1e-4 of z_far. Then use a fit. Casters in the last 1/1024 of the way to a spot are cut.
+// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters in the last 1/1024 of the way to a spot are cut.
 template <class T>
 [[nodiscard]] inline ShadowMap<T> view_dependent_map(ViewVolume<T> const& view, Light<T> const& light,
                                                      ShadowPlane<T> const& plane, Aabb<T> const& casters,
@@ -116,8 +120,12 @@ template <class T>
     Vec4<T> const pi(normal.direction, glm::dot(normal.direction, origin) + plane.offset / normal.length);
     T const height_of_light = glm::dot(pi, source);
     T const least_height = T(1e-4) * eye.z_far;
-    if (!(std::abs(pi.w) >= least_height) || !(std::abs(height_of_light) >= (sun ? options.least_sine : least_height)) ||
-        !all_finite(pi) || !all_finite(source) || !all_finite(&height_of_light, 1) || height_of_light == T(0)) {
+    // An orthographic eye lies at infinity, against its viewing direction.
+    bool const flat = eye.kind == ViewKind::orthographic;
+    T const height_of_eye = flat ? glm::dot(normal.direction, eye.pose.forward) : pi.w;
+    if (!(std::abs(height_of_eye) >= (flat ? options.least_sine : least_height)) || height_of_eye == T(0) ||
+        !(std::abs(height_of_light) >= (sun ? options.least_sine : least_height)) ||
+        height_of_light == T(0) || !(std::abs(pi.w) <= T(1e12))) {
         map.faults |= Fault::invalid_plane;
         return map;
     }
@@ -130,10 +138,11 @@ template <class T>
     rows.y = slid(1);
     rows.w = slid(3);
     rows.along = along;
+    rows.source = source;
     rows.parallel = sun;
     constexpr T nearest = T(1) / T(1024);  // the nearest caster to a spot, as a part of the spot's height
     if (!sun) rows.along_floor = nearest - T(1);
-    rows.w_min = eye.kind == ViewKind::orthographic ? nearest : eye.z_near;
+    rows.w_min = flat ? nearest : eye.z_near;
     if (!(rows.w_min > T(0))) {
         rows.w_min = eye.z_far / T(1 << 20);
         map.faults |= Fault::near_clamped;

@@ -76,6 +76,7 @@ template <class T>
     rows.y = Vec4<T>(axes.y, -y_near);
     rows.w = Vec4<T>(axes.y * inverse_centre, T(1) - y_near * inverse_centre);
     rows.along = Vec4<T>(axes.depth, T(0));
+    rows.source = rows.along;
     rows.w_min = T(0.5);
     return rows;
 }
@@ -139,8 +140,9 @@ template <class T>
     ConvexBody<T> const body = visible_body(in.view, receivers);
     if (body.edge_count == 0) return map;
     WarpAxes<T> const axes = warp_axes(in.view.pose, in.light.direction);
-    detail::Extent<T> y, eye_metres;
+    detail::Extent<T> x, y, eye_metres;
     for_each_vertex(body, [&](Vec3<T> const& p) {
+        x.add(glm::dot(axes.basis.x, p));
         y.add(glm::dot(axes.basis.y, p));
         eye_metres.add(glm::dot(in.view.pose.forward, p));
     });
@@ -154,7 +156,7 @@ template <class T>
                          optimal_inverse_centre(glm::max(eye_metres.lo, nearest), y.hi - y.lo, axes.sine);
     }
     MapRows<T> rows = perspective_warp(axes.basis, y.lo, inverse_centre);
-    rows.least_width = (y.hi - y.lo) / T(options.map_size);
+    rows.least_width = glm::max(x.hi - x.lo, y.hi - y.lo) / T(options.map_size);
     Faults const before = map.faults;
     map = map_from_rows(rows, in.view.pose.position, body, casters, options.map_size, options.margin_texels, clip);
     map.faults |= before;

@@ -55,8 +55,8 @@ TEST_P(GlBackend, DrawsATrianglesDepthWhereItsCornersSay) {
             double const x = (column + 0.5) * 2.0 / size - 1.0;
             double const y = (row + 0.5) * 2.0 / size - 1.0;
             bool const covered = x > -0.5 && y > -0.5 && (x + 0.5) / 1.03 + (y + 0.5) < 1.0;
-            // A plane equation in float: a handful of roundings of values below 1. A rasteriser may also snap corners to
-            // 1/256 texel, which moves depth by the slope (0.5 / 32 a texel) times as much.
+            // A plane equation in float: a handful of roundings of values below 1. A rasteriser may also snap corners
+            // to 1/256 texel, which moves depth by the slope (0.5 / 32 a texel) times as much.
             double const expected = covered ? 0.25 + 0.5 * (y + 0.5) : 1.0;
             double const tolerance = covered ? 8.0 * double(epsilon) + 0.5 / 32.0 / 256.0 : 0.0;
             ASSERT_NEAR(double(map.at(column, row)), expected, tolerance) << column << ", " << row;

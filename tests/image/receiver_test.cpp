@@ -267,8 +267,8 @@ TEST_P(Receiver, ATiltedSpotLightsMapShowsNoAcneOnTheFloor) {
     EXPECT_EQ(dark, 0);
 }
 
-// Clip z is (b / w + a), b = -n f / (f - n); quad and floor lie at w = 3 and 5, so that b (1/5 - 1/3) parts them in depth
-// and a bias of 2/3 |b| over w = 5 closes the gap.
+// Depth is a + b / w with b = -n f / (f - n); quad and floor lie at w = 3 and 5, so that b (1/5 - 1/3) parts them in
+// depth and a bias of 2/3 |b| over w = 5 closes the gap.
 TEST_P(Receiver, BiasWIsDividedByClipW) {
     QuadOverFloor const world;
     glm::vec3 const light(0.0f, 5.0f, 0.0f);

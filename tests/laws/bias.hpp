@@ -34,7 +34,8 @@ public:
     }
 
     [[nodiscard]] long double operator()(int x, int y) const {
-        return depth_at(static_cast<long double>(x) + 0.5L, static_cast<long double>(y) + 0.5L);
+        long double const depth = depth_at(static_cast<long double>(x) + 0.5L, static_cast<long double>(y) + 0.5L);
+        return depth > 0 ? (depth < 1 ? depth : 1) : 0;  // as depth clamp stores it
     }
 
 private:

@@ -21,7 +21,8 @@ template <class T>
 template <class T>
 [[nodiscard]] bool merges(Aabb<T> const& a, Aabb<T> const& b, Vec3<T> const& point) {
     Aabb<T> const both = merge(a, b);
-    bool const holds_both = contains(both, a.lo) && contains(both, a.hi) && contains(both, b.lo) && contains(both, b.hi);
+    bool const holds_both =
+        contains(both, a.lo) && contains(both, a.hi) && contains(both, b.lo) && contains(both, b.hi);
     bool touches = true;
     for (int axis = 0; axis < 3; ++axis)
         touches = touches && (both.lo[axis] == a.lo[axis] || both.lo[axis] == b.lo[axis]) &&

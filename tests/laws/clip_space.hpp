@@ -28,8 +28,8 @@ template <class T>
 template <class T>
 [[nodiscard]] bool reads_where_it_was_written(ClipSpace clip, Vec3<T> const& canonical) {
     Vec3<T> const at = texture_point(clip, Vec4<T>(canonical, T(1)));
-    bool const inside = std::abs(canonical.x) <= T(1) && std::abs(canonical.y) <= T(1) && canonical.z >= T(0) &&
-                        canonical.z <= T(1);
+    bool const inside =
+        std::abs(canonical.x) <= T(1) && std::abs(canonical.y) <= T(1) && canonical.z >= T(0) && canonical.z <= T(1);
     bool const in_texture =
         at.x >= T(0) && at.x <= T(1) && at.y >= T(0) && at.y <= T(1) && at.z >= T(0) && at.z <= T(1);
     T const height = (canonical.y + T(1)) / T(2);

@@ -30,11 +30,12 @@ namespace shadowmath::laws {
                 Vec3<Long> const a(planes[i]), b(planes[j]), c(planes[k]);
                 Long const volume6 = glm::dot(a, glm::cross(b, c));
                 if (std::abs(volume6) < 1e-12L) continue;
-                Vec3<Long> const point =
-                    -(glm::cross(b, c) * planes[i].w + glm::cross(c, a) * planes[j].w + glm::cross(a, b) * planes[k].w) /
-                    volume6;
+                Vec3<Long> const point = -(glm::cross(b, c) * planes[i].w + glm::cross(c, a) * planes[j].w +
+                                           glm::cross(a, b) * planes[k].w) /
+                                         volume6;
                 bool inside = true;
-                for (Vec4<Long> const& plane : planes) inside = inside && glm::dot(plane, Vec4<Long>(point, 1)) >= -slack;
+                for (Vec4<Long> const& plane : planes)
+                    inside = inside && glm::dot(plane, Vec4<Long>(point, 1)) >= -slack;
                 if (!inside) continue;
                 Long const depth = eye_depth(volume, point);
                 range = {std::fmin(range.lo, depth), std::fmax(range.hi, depth), true};
@@ -50,8 +51,8 @@ template <class T>
     DepthRange<T> const found = depths_inside(box, volume);
     DepthRange<Long> const inner = common_depths(exact_box, widened_to_long(volume), 1e-15L * Long(volume.z_far));
     DepthRange<Long> const outer = common_depths(exact_box, widened_to_long(volume), slack);
-    if (inner.visible && !(found.visible && Long(found.lo) <= inner.lo + slack * 1e-3L &&
-                           Long(found.hi) >= inner.hi - slack * 1e-3L))
+    if (inner.visible &&
+        !(found.visible && Long(found.lo) <= inner.lo + slack * 1e-3L && Long(found.hi) >= inner.hi - slack * 1e-3L))
         return false;
     return !found.visible ||
            (outer.visible && Long(found.lo) >= outer.lo - slack && Long(found.hi) <= outer.hi + slack);

@@ -13,7 +13,8 @@ namespace shadowmath::laws {
 // Union neither loses nor invents, in whatever order and however often.
 [[nodiscard]] constexpr bool is_a_union(Faults a, Faults b) {
     Faults const both = a | b;
-    return both.bits == (a.bits | b.bits) && both == (b | a) && (both | a) == both && both.any() == (a.any() || b.any());
+    return both.bits == (a.bits | b.bits) && both == (b | a) && (both | a) == both &&
+           both.any() == (a.any() || b.any());
 }
 
 // The sentence is that of the lowest fault in the set.

@@ -21,7 +21,8 @@ template <class T>
     };
     Vec3<Real> const turned = glm::cross(x, y) + depth;
     return is(glm::length(x), 1) && is(glm::length(y), 1) && is(glm::length(depth), 1) && is(glm::dot(x, y), 0) &&
-           is(glm::dot(y, depth), 0) && is(glm::dot(depth, x), 0) && is(turned.x, 0) && is(turned.y, 0) && is(turned.z, 0);
+           is(glm::dot(y, depth), 0) && is(glm::dot(depth, x), 0) && is(turned.x, 0) && is(turned.y, 0) &&
+           is(turned.z, 0);
 }
 
 // A small turn of the light turns the axes little. Carrying them along the shortest turn from -y adds tan(angle / 2)

@@ -44,7 +44,7 @@ template <class T>
     auto const in = [&](TexelGrid<T> const& grid) {
         return texel_of(clip_from_world(grid, T(0), T(1), clip), clip, grid.map_size, point);
     };
-    Vec2<long double> const moved = in(a) - in(b);
+    Vec2<long double> const moved = in(a)-in(b);
     return a.texel_metres == b.texel_metres && a.map_size == b.map_size &&
            std::abs(moved.x - static_cast<long double>(b.x - a.x)) <= 1.0L / 64 &&
            std::abs(moved.y - static_cast<long double>(b.y - a.y)) <= 1.0L / 64;

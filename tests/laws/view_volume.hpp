@@ -55,8 +55,7 @@ template <class T>
 // divided by the width there; along it, by how fast depth grows there.
 template <class T>
 [[nodiscard]] bool fills_the_clip_volume(ViewVolume<T> const& view, ClipSpace clip) {
-    Mat4<Real> const canonical_from_world =
-        canonical_from_clip<Real>(clip) * Mat4<Real>(clip_from_world(view, clip));
+    Mat4<Real> const canonical_from_world = canonical_from_clip<Real>(clip) * Mat4<Real>(clip_from_world(view, clip));
     std::array<Vec3<Real>, 8> const points = corners(widened(view));
     Real const eps = std::numeric_limits<T>::epsilon();
     Real const width = static_cast<Real>(view.right) - view.left, height = static_cast<Real>(view.top) - view.bottom;
@@ -78,8 +77,10 @@ template <class T>
         // w itself may drown in rounding: then nothing can be said.
         if (16 * eps * w_error > 0.5L) continue;
         Real const slope = flat ? 1 / range : view.z_far / range;
-        bool const x = near_to(at.x, (i & 1) != 0 ? 1 : -1, 1 + off_x + 2 * reach / (width * w) + (1 + off_x) * w_error);
-        bool const y = near_to(at.y, (i & 2) != 0 ? 1 : -1, 1 + off_y + 2 * reach / (height * w) + (1 + off_y) * w_error);
+        bool const x =
+            near_to(at.x, (i & 1) != 0 ? 1 : -1, 1 + off_x + 2 * reach / (width * w) + (1 + off_x) * w_error);
+        bool const y =
+            near_to(at.y, (i & 2) != 0 ? 1 : -1, 1 + off_y + 2 * reach / (height * w) + (1 + off_y) * w_error);
         bool const z = near_to(at.z, (i & 4) != 0 ? 1 : 0, 1 + slope * (reach + view.z_near) / w + w_error);
         if (!(at_clip.w > 0 && x && y && z)) return false;
     }
@@ -95,8 +96,8 @@ template <class T>
     auto const same = [](T value, T wanted, T scale) {
         return std::abs(value - wanted) <= T(16) * std::numeric_limits<T>::epsilon() * scale;
     };
-    return read.kind == view.kind && same(read.left, view.left, wide) &&
-           same(read.right, view.right, wide) && same(read.bottom, view.bottom, high) && same(read.top, view.top, high);
+    return read.kind == view.kind && same(read.left, view.left, wide) && same(read.right, view.right, wide) &&
+           same(read.bottom, view.bottom, high) && same(read.top, view.top, high);
 }
 
 }  // namespace shadowmath::laws

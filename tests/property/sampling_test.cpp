@@ -88,7 +88,7 @@ TEST(SamplingByDepth, FadesWithoutAStep) {
     EXPECT_TRUE(rc::check([] {
         auto slices = *ranges<double>();
         auto const count = static_cast<int>(slices.size());
-        double narrowest = 1e9;
+        double narrowest = 1;
         for (auto const& slice : slices)
             if (slice.end > slice.blend_begin) narrowest = std::min(narrowest, slice.end - slice.blend_begin);
         auto const a = *uniform<double>(0.5, 199.0);

@@ -249,7 +249,8 @@ rc::Gen<Aabb<T>> nasty_box() {
         Aabb<T> drawn = *box<T>(T(100));
         if (kind == 0) return Aabb<T>{};
         if (kind == 1) return Aabb<T>{drawn.hi, drawn.lo};
-        if (kind == 2) return Aabb<T>{Vec3<T>(std::numeric_limits<T>::lowest()), Vec3<T>(std::numeric_limits<T>::max())};
+        if (kind == 2)
+            return Aabb<T>{Vec3<T>(std::numeric_limits<T>::lowest()), Vec3<T>(std::numeric_limits<T>::max())};
         Vec3<T> const lo = *nasty_vec3<T>();
         Vec3<T> const hi = *nasty_vec3<T>();
         if (kind == 3) return Aabb<T>{lo, hi};

@@ -31,8 +31,9 @@ template <class T>
     } else {
         // frustum wants its sides where its first distance is; the sides enter divided by it again.
         // NOTE: glm 0.9.9.8's frustumLH has the wrong sign in its third column: off-centre, it does not mirror frustumRH.
-        clip_from_view = (full ? glm::frustumRH_NO<T> : glm::frustumRH_ZO<T>)(
-            view.left * first, view.right * first, view.bottom * first, view.top * first, first, second);
+        clip_from_view =
+            (full ? glm::frustumRH_NO<T> : glm::frustumRH_ZO<T>)(view.left * first, view.right * first,
+                                                                 view.bottom * first, view.top * first, first, second);
         if (hand == Hand::left) clip_from_view[2] = -clip_from_view[2];
         T const h = hand == Hand::right ? T(-1) : T(1);
         if (depth == Depth::endless) {

@@ -84,6 +84,16 @@ TYPED_TEST(DepthRangeOf, BoxesWithoutAnEndAreCutBeforeTheyAreComputedWith) {
     EXPECT_TRUE(this->close(below.hi, 3));
 }
 
+TYPED_TEST(DepthRangeOf, AVolumeInsideTheBoxHasItsOwnDepths) {
+    using T = TypeParam;
+    auto const view = perspective_view(pose_looking(Vec3<T>(1, 2, 3), Vec3<T>(1, -2, T(1.5)), Vec3<T>(0, 1, 0)), T(0.2),
+                                       T(1), T(5), T(20));
+    auto const range = depths_inside(Aabb<T>{Vec3<T>(-1000), Vec3<T>(1000)}, view);
+    EXPECT_TRUE(range.visible);
+    EXPECT_TRUE(this->close(range.lo, 5));
+    EXPECT_TRUE(this->close(range.hi, 20));
+}
+
 TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
     using T = TypeParam;
     T const nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();

@@ -46,7 +46,8 @@ TYPED_TEST(Finite, NormalizesVectorsOfTheSmallestAndTheLargestNumbers) {
         // Its own square would overflow in the law.
         EXPECT_TRUE(laws::normalizes(Vec3<T>(T(3), T(4), T(12))));
     } else {
-        for (T const size : {Limits::denorm_min(), Limits::min(), T(1e-30), T(1e30), Limits::max() / T(4), Limits::max()}) {
+        for (T const size :
+             {Limits::denorm_min(), Limits::min(), T(1e-30), T(1e30), Limits::max() / T(4), Limits::max()}) {
             EXPECT_TRUE(laws::normalizes(Vec3<T>(size, -size, size))) << size;
             EXPECT_TRUE(laws::normalizes(Vec3<T>(size, T(0), T(0)))) << size;
         }

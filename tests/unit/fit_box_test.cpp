@@ -55,7 +55,8 @@ TYPED_TEST(FitBox, HoldsEveryCornerInEveryConvention) {
         T const margin = T(3) / T(256) - T(64) * std::numeric_limits<T>::epsilon();
         for (Vec3<T> const& corner : body) {
             // Depth has no margin: its slack is asked for apart.
-            Vec3<T> const inward = corner + (Vec3<T>(1, 5, T(25.5)) - corner) * (T(16) * std::numeric_limits<T>::epsilon());
+            Vec3<T> const inward =
+                corner + (Vec3<T>(1, 5, T(25.5)) - corner) * (T(16) * std::numeric_limits<T>::epsilon());
             EXPECT_TRUE(laws::holds(matrix, clip, inward, margin));
         }
     }

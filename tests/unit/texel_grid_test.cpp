@@ -90,7 +90,8 @@ TEST(TexelGrid, StandsStillTenThousandKilometresFromTheOriginInDouble) {
             ASSERT_TRUE(grid.visible);
             EXPECT_FALSE(grid.faults.any());
             if (frame == 0) first = grid;
-            EXPECT_TRUE(laws::keeps_its_place_in_the_texel(first, grid, vulkan_clip, point)) << distance << " " << frame;
+            EXPECT_TRUE(laws::keeps_its_place_in_the_texel(first, grid, vulkan_clip, point))
+                << distance << " " << frame;
         }
     }
 }
@@ -101,8 +102,8 @@ TEST(TexelGrid, StandsStillInFloatWithinItsStatedReach) {
     int told = 0;
     for (int frame = 0; frame < 200; ++frame) {
         Vec3<float> const eye = point + Vec3<float>(std::sin(float(frame)), 0.1f, 0.07f * float(frame));
-        auto const view = perspective_view(pose_looking(eye, Vec3<float>(std::cos(float(frame)), -0.2f, 1.0f), {0, 1, 0}),
-                                           1.0f, 1.6f, 0.5f, 12.0f);
+        auto const view = perspective_view(
+            pose_looking(eye, Vec3<float>(std::cos(float(frame)), -0.2f, 1.0f), {0, 1, 0}), 1.0f, 1.6f, 0.5f, 12.0f);
         TexelGrid<float> const grid = texel_grid(slanted<float>(), bounding_sphere(view), 2048, 2.0f);
         if (frame == 0) first = grid;
         told += grid.faults.has(Fault::precision_lost);

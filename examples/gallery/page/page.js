@@ -89,15 +89,16 @@
         ...columns.map(([, key, show]) => element("td", {}, show(mean(row.mine.map(r => r[key])))))))));
   }
 
-  const swatch = colour => element("span", { class: "swatch", style: `background:${colour}`, "aria-hidden": "true" });
+  const swatch = (colour, text) =>
+    element("span", {}, element("span", { class: "swatch", style: `background:${colour}`, "aria-hidden": "true" }), text);
   const legends = {
-    difference: () => [swatch("#f2412a"), "false shadow", swatch("#2f96ff"), "false light", swatch("#8c6a64"), "at a true edge"],
-    overlay: record => Array.from({ length: record.maps }, (_, i) => element("span", {}, swatch(palette.maps[i]), `map ${i + 1}`)),
+    difference: () => [swatch("#f2412a", "false shadow"), swatch("#2f96ff", "false light"), swatch("#8c6a64", "at true edges")],
+    overlay: record => Array.from({ length: record.maps }, (_, i) => swatch(palette.maps[i], String(i + 1))),
     footprint: () => [element("span", { class: "scale" }, "¼", element("i", { style: `background:linear-gradient(90deg,${palette.footprint.join(",")})` }), "16 px a texel")],
-    maps: () => [swatch("rgb(255,238,204)"), "read by the picture", swatch("rgb(108,130,158)"), "drawn for nobody"],
+    maps: () => [swatch("rgb(236,205,164)", "read by the picture"), swatch("rgb(86,106,134)", "drawn for nobody")],
     truth: () => ["ray-traced"],
   };
-  const titles = { picture: "Picture", truth: "Truth", difference: "Difference", overlay: "Which map serves", footprint: "Footprint", maps: "Maps" };
+  const titles = { picture: "Picture", truth: "Truth", difference: "Difference", overlay: "Map in use", footprint: "Footprint", maps: "Maps" };
 
   // One scene: a choice of view and technique, and the pictures of that choice.
   class Show {
@@ -152,8 +153,8 @@
         element("figcaption", {}, element("b", {}, "Picture"), " and ", titles[this.versus].toLowerCase(), ": move the pointer or the arrow keys across"));
     }
 
-    tile(kind, record) {
-      return element("figure", {},
+    tile(kind, record, attributes = {}) {
+      return element("figure", attributes,
         element("button", { type: "button", class: "frame", "aria-label": `Enlarge. ${this.alt(kind)}`, onclick: () => zoom(this.source(kind), this.alt(kind)) }, this.image(kind)),
         element("figcaption", { class: "keyline" }, element("b", {}, titles[kind]), ...legends[kind](record)));
     }
@@ -163,7 +164,6 @@
       if (!served.some(t => t.id === this.technique)) this.technique = served[0].id;
       this.select.replaceChildren(...served.map(t => element("option", { value: t.id, selected: t.id === this.technique }, t.title)));
       const record = matching({ scene: this.scene.name, view: this.view.name, technique: this.technique, backend: firstBackend })[0];
-      const kinds = ["truth", "difference", "overlay", "footprint", ...(record.maps ? ["maps"] : [])];
       const figures = [
         ["Wrong off edge", percent(record.mis_shadowed_fraction_off_edge)], ["Wrong, all", percent(record.mis_shadowed_fraction)],
         ["Judged", record.lit_facing_pixels.toLocaleString("en") + " px"], ["In no map", record.unmapped_pixels.toLocaleString("en") + " px"],
@@ -174,10 +174,12 @@
       const wide = [];
       if (record.splits.length) wide.push(["Splits, metres", record.splits.map(number).join(" · ")]);
       if (record.note) wide.push(["The library says", record.note]);
-      this.body.replaceChildren(
-        element("div", { class: "pictures", style: `--aspect:${settings.width}/${settings.height}` }, this.compare(), ...kinds.map(kind => this.tile(kind, record))),
-        element("dl", { class: "figures" }, ...[...figures.map(f => [f, false]), ...wide.map(f => [f, true])].map(([[term, value], isWide]) =>
-          element("div", isWide ? { class: "wide" } : {}, element("dt", {}, term), element("dd", {}, value)))));
+      const list = element("dl", { class: "figures" }, ...[...figures.map(f => [f, false]), ...wide.map(f => [f, true])].map(
+        ([[term, value], isWide]) => element("div", isWide ? { class: "wide" } : {}, element("dt", {}, term), element("dd", {}, value))));
+      const tiles = ["truth", "difference", "overlay", "footprint"].map(kind => this.tile(kind, record));
+      const maps = record.maps ? [this.tile("maps", record, { class: "maps", style: `--count:${record.maps}` })] : [];
+      this.body.replaceChildren(element("div", { class: "pictures", style: `--aspect:${settings.width}/${settings.height}` },
+        this.compare(), ...tiles, list, ...maps));
     }
   }
 

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+//
+// The program from outside: what it writes, what it says when it cannot, and whether the page it made works in a browser.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(fs::path const& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+struct Ended {
+    int status = -1;
+    std::string out, err;
+};
+
+// A folder with a space in its name, removed at the end, and the gallery that most cases look at.
+class Gallery : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        place_ = fs::temp_directory_path() / ("gallery test " + std::to_string(::getpid()));
+        fs::create_directory(place_);
+        write("cube.obj",
+              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+              "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");
+        made_ = gallery(quick + " cube.obj cube.obj --out made");
+    }
+    static void TearDownTestSuite() { fs::remove_all(place_); }
+
+    static void write(std::string const& name, std::string const& text) { std::ofstream(place_ / name, std::ios::binary) << text; }
+
+    // Runs a shell command in the folder.
+    static Ended command(std::string const& line) {
+        std::string const shell = "cd '" + place_.string() + "' && ( " + line + " ) > .out 2> .err";
+        int const status = std::system(shell.c_str());
+        Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(place_ / ".out"), text_of(place_ / ".err")};
+        fs::remove(place_ / ".out");
+        fs::remove(place_ / ".err");
+        return ended;
+    }
+    static Ended gallery(std::string const& arguments, std::string const& before = {}) {
+        return command(before + " '" GALLERY "' " + arguments);
+    }
+
+    static std::set<std::string> standing() {
+        std::set<std::string> names;
+        for (auto const& entry : fs::directory_iterator(place_)) names.insert(entry.path().filename().string());
+        return names;
+    }
+
+    // One line on the standard error output, the status wanted, and nothing written or left behind.
+    static void expect_refusal(std::string const& arguments, int status, std::string const& says, std::string const& before = {}) {
+        SCOPED_TRACE(arguments);
+        auto const before_names = standing();
+        Ended const ended = gallery(arguments, before);
+        EXPECT_EQ(ended.status, status);
+        EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+        EXPECT_NE(ended.err.find(says), std::string::npos) << ended.err;
+        EXPECT_EQ(standing(), before_names);
+    }
+
+    static std::string verdict() {
+        Ended const ended = command("chromium --headless --no-sandbox --disable-gpu --user-data-dir=browser --virtual-time-budget=60000"
+                                    " --dump-dom \"file://$(printf %s \"$PWD\" | sed 's/ /%20/g')/made/index.html#check\" 2> /dev/null");
+        fs::remove_all(place_ / "browser");
+        std::string const mark = "data-verdict=\"";
+        std::size_t const begin = ended.out.find(mark);
+        if (begin == std::string::npos) return "the page gave no verdict";
+        std::size_t const end = ended.out.find('"', begin + mark.size());
+        return ended.out.substr(begin + mark.size(), end - begin - mark.size());
+    }
+
+    static inline std::string const quick = "--quick --size 160x90 --scene none";
+    static inline fs::path place_;
+    static inline Ended made_;
+};
+
+bool has_browser() { return std::system("command -v chromium > /dev/null 2>&1") == 0; }
+
+TEST_F(Gallery, IsMadeWithoutComplaint) {
+    EXPECT_EQ(made_.status, 0);
+    EXPECT_EQ(made_.err, "");
+    EXPECT_NE(made_.out.find("% off edge"), std::string::npos) << made_.out;
+    EXPECT_EQ(standing(), (std::set<std::string>{"cube.obj", "made"}));
+}
+
+TEST_F(Gallery, RecordsEveryFigureOfEveryPicture) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    std::size_t expected = 0;
+    for (auto const& scene : results.at("scenes"))
+        for (auto const& view : scene.at("views"))
+            for (auto const& technique : results.at("techniques"))
+                if (view.at("light") == "sun" || technique.at("serves_spots").get<bool>()) ++expected;
+    expected *= results.at("machine").at("backends").size();
+    ASSERT_GT(expected, 0u);
+    EXPECT_EQ(results.at("records").size(), expected);
+    EXPECT_EQ(results.at("scenes").size(), 2u) << "the same model twice is two scenes";
+
+    std::set<std::string> seen;
+    for (auto const& record : results.at("records")) {
+        std::string key;
+        for (char const* name : {"scene", "view", "technique", "backend"}) key += record.at(name).get<std::string>() + "/";
+        EXPECT_TRUE(seen.insert(key).second) << key << " twice";
+        for (char const* name : {"mis_shadowed_fraction", "mis_shadowed_fraction_off_edge", "map_used_fraction"}) {
+            EXPECT_GE(record.at(name).get<double>(), 0.0) << key << name;
+            EXPECT_LE(record.at(name).get<double>(), 1.0) << key << name;
+        }
+        for (char const* name : {"map_size", "maps", "lit_facing_pixels", "beyond_pixels", "unmapped_pixels"})
+            EXPECT_GE(record.at(name).get<long>(), 0) << key << name;
+        for (char const* name : {"ms_depth", "ms_receive"}) EXPECT_GT(record.at(name).get<double>(), 0.0) << key << name;
+        EXPECT_LE(record.at("footprint_mean").get<double>(), record.at("footprint_max").get<double>()) << key;
+        EXPECT_LE(record.at("footprint_p95").get<double>(), record.at("footprint_max").get<double>()) << key;
+        EXPECT_LE(record.at("lit_facing_pixels").get<long>() + record.at("beyond_pixels").get<long>(), 160 * 90) << key;
+    }
+    for (auto const& claim : results.at("claims"))
+        for (char const* name : {"id", "source", "statement", "measured", "reason"}) EXPECT_TRUE(claim.at(name).is_string());
+    EXPECT_EQ(results.at("settings").at("width"), 160);
+    EXPECT_NE(results.at("machine").at("backends").at(0).at("driver"), "");
+}
+
+TEST_F(Gallery, ShowsFewWrongPixelsOnACube) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    for (auto const& record : results.at("records"))
+        EXPECT_LT(record.at("mis_shadowed_fraction_off_edge").get<double>(), 0.05) << record.dump();
+}
+
+TEST_F(Gallery, PageShowsEveryPictureAndSeesOneThatIsMissing) {
+    if (!has_browser()) GTEST_SKIP() << "NOT TESTED: the gallery page in a browser, for there is no chromium";
+    std::string const good = verdict();
+    EXPECT_EQ(good.substr(0, 3), "ok:") << good;
+    fs::path const truth = fs::directory_iterator(fs::directory_iterator(place_ / "made" / "images")->path())->path() / "truth.png";
+    ASSERT_TRUE(fs::exists(truth));
+    fs::rename(truth, place_ / "truth.png");
+    std::string const bad = verdict();
+    EXPECT_EQ(bad.substr(0, 4), "bad:") << bad;
+    fs::rename(place_ / "truth.png", truth);
+}
+
+TEST_F(Gallery, RefusesModelsThatAreNone) {
+    write("empty.obj", "# nothing\n");
+    write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n");
+    expect_refusal(quick + " missing.obj --out new", 1, "missing.obj");
+    expect_refusal(quick + " empty.obj --out new", 1, "empty.obj");
+    expect_refusal(quick + " bad.obj --out new", 1, "bad.obj");
+    fs::remove(place_ / "empty.obj");
+    fs::remove(place_ / "bad.obj");
+}
+
+TEST_F(Gallery, RefusesToWriteWhereItCannotOrMustNot) {
+    write("file", "text");
+    fs::create_directory(place_ / "letters");
+    write("letters/dear.txt", "dear");
+    expect_refusal(quick + " cube.obj --out file/below", 1, "file");
+    expect_refusal(quick + " cube.obj --out file", 1, "not a gallery");
+    expect_refusal(quick + " cube.obj --out letters", 1, "not a gallery");
+    EXPECT_EQ(text_of(place_ / "letters" / "dear.txt"), "dear");
+    fs::remove(place_ / "file");
+    fs::remove_all(place_ / "letters");
+}
+
+TEST_F(Gallery, KeepsTheOlderOneWhenItFails) {
+    std::string const older = text_of(place_ / "made" / "results.json");
+    expect_refusal(quick + " missing.obj --out made", 1, "missing.obj");
+    EXPECT_EQ(text_of(place_ / "made" / "results.json"), older);
+}
+
+TEST_F(Gallery, SaysInOneLineThatThereIsNoDriver) {
+    expect_refusal(quick + " cube.obj --backend egl --out new", 1, "EGL", "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere");
+}
+
+TEST_F(Gallery, TellsWrongUsageWithStatusTwo) {
+    expect_refusal("--size 12 --out new", 2, "--help");
+    expect_refusal("--size 0x0 --out new", 2, "--help");
+    expect_refusal("--size 99999x99999 --out new", 2, "--help");
+    expect_refusal("--backend metal --out new", 2, "--help");
+    expect_refusal("--scene moon --out new", 2, "--help");
+    expect_refusal("--seed minus --out new", 2, "--help");
+    expect_refusal("--no-such-option", 2, "--help");
+    expect_refusal("--scene none", 2, "none");
+    EXPECT_EQ(gallery("--help").status, 0);
+}
+
+TEST_F(Gallery, LeavesNothingWhenItIsStopped) {
+    auto const before = standing();
+    Ended const ended = command("timeout --preserve-status -s INT 3 '" GALLERY "' --scene forest --out new");
+    EXPECT_EQ(ended.status, 130);
+    EXPECT_EQ(standing(), before);
+}
+
+}  // namespace

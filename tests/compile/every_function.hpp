@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// Every public function template of shadowmath, instantiated: a template that nobody calls is checked for little more than
+// its brackets. Header by header in alphabetical order; where a name is overloaded, or takes a callable, it is called.
+// A test reads the headers and fails when one of their functions is missing here.
+#pragma once
+
+#include "every_header.hpp"
+
+namespace shadowmath::compile {
+
+// Taking the address of a template's specialization instantiates its body.
+template <class... Functions>
+constexpr int keep(Functions...) noexcept {
+    return static_cast<int>(sizeof...(Functions));
+}
+
+template <class T>
+int every_overloaded_function() noexcept {
+    Vec3<T> const point(T(0));
+    Mat4<T> const identity(T(1));
+    Aabb<T> const box{point, point + T(1)};
+    ViewVolume<T> const view;
+    ShadowMap<T> const map;
+    int count = 0;
+    count += all_finite(&point.x, 3) && all_finite(Vec2<T>(point)) && all_finite(point) && all_finite(identity) &&
+             all_finite(box);
+    count += is_empty(merge(merge(box, point), intersect(box, box))) || is_empty(intersect(Region<T>{}, Region<T>{}));
+    count += contains(box, point) || contains(map, 16, T(1), point);
+    count += corners(box)[0] == corners(view)[0];
+    count += (faults_of(view) | faults_of(Light<T>{}) | faults_of(Tile{})).any();
+    count += describe(Fault::not_finite) != describe(Faults{});
+    count += clip_from_world(LightBox<T>{}, reversed(gl_clip)) == clip_from_world(view, vulkan_clip);
+    count += clip_from_world(TexelGrid<T>{}, T(0), T(1), d3d_clip) == identity;
+    for_each_vertex(convex_body(corners(box)), [&count](Vec3<T> const& vertex) { count += vertex.x > T(0); });
+    auto const stored_depth = [](int, int) { return T(1); };
+    count += filtered(Receiver<T>{}, 16, gl_clip, FilterOptions{}, stored_depth) > T(0);
+    count += visibility(map, 16, point, Vec3<T>(T(0), T(1), T(0)), MapBias<T>{}, FilterOptions{}, stored_depth) > T(0);
+    return count;
+}
+
+template <class T>
+int every_function() noexcept {
+    int count = every_overloaded_function<T>();
+    count += keep(&closed_form::is_range<T>, &closed_form::is_positive<T>, &closed_form::pixels_per_texel<T>,
+                  &closed_form::uniform_along<T>, &closed_form::uniform_across<T>, &closed_form::logarithmic_along<T>,
+                  &closed_form::warped_along<T>, &closed_form::warped_across<T>, &closed_form::warped_worst<T>,
+                  &closed_form::best_centre<T>, &closed_form::split_uniform_worst<T>, &closed_form::split_warped_worst<T>,
+                  &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
+    count += keep(&slope<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
+                  &normal_offset_metres<T>, &bias_for<T>, &bias_at<T>);
+    count += keep(&bounds_of<T>);
+    count += keep(&fit_cascades<T>);
+    count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
+    count += keep(&row<T>, &from_rows<T>, &nowhere<T>);
+    count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
+    count += keep(&tap_weight<T>);
+    count += keep(&is_positive_infinity<T>, &safe_normalize<T>);
+    count += keep(&fit_box<T>);
+    count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
+                  &spot_clip_from_world<T>, &fit_spot<T>);
+    count += keep(&bounding_sphere<T>);
+    count += keep(&area<T>, &texels_per_pixel<T>, &footprint<T>);
+    count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,
+                  &in_light<T>);
+    count += keep(&texel_metres<T>, &rebased<T>);
+    count += keep(&door<T>, &map_from_rows<T>);
+    count += keep(&faults_of_margin<T>, &usable_texels<T>);
+    count += keep(&convex_body<T>, &clipped<T>, &visible_body<T>);
+    count +=
+        keep(&region_of<T>, &widened<T>, &with_margin<T>, &region_matrix<T>, &tile_matrix<T>, &projected_bounds<T>);
+    count += keep(&by_depth<T>, &by_map<T>, &blended<T>, &shade<T>);
+    count += keep(&texture_from_world<T>);
+    count += keep(&slice_range<T>, &slice<T>);
+    count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
+                  &explicit_splits<T>, &lambda_for_first_split<T>);
+    count += keep(&projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
+    count += keep(&texel_grid<T>, &on_grid<T>);
+    count += keep(&plane_through<T>, &mean_height_plane<T>, &plane_projection<T>, &view_dependent_map<T>,
+                  &receiver_valid<T>);
+    count += keep(&pose_looking<T>, &perspective_view<T>, &orthographic_view<T>, &view_from_projection<T>,
+                  &orthonormalized<T>, &point_at<T>, &eye_depth<T>);
+    count += keep(&printed_simple_warp<T>, &corrected_simple_warp<T>, &optimal_inverse_centre<T>, &perspective_warp<T>,
+                  &warp_axes<T>, &simple_perspective_map<T>);
+    return count;
+}
+
+}  // namespace shadowmath::compile

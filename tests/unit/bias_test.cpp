@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/bias.hpp"
+
+#include <shadowmath/light_box.hpp>
+#include <shadowmath/view_volume.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+// 10 m by 20 m across, 40 m deep, light straight down: x of the map is x of the world, y is -z, depth is -y.
+struct Overhead {
+    Light<double> light = directional(Vec3<double>(0, -1, 0));
+    ShadowMap<double> map;
+
+    explicit Overhead(ClipSpace clip = gl_zero_to_one_clip) {
+        LightBox<double> box;
+        box.lo = Vec2<double>(-5, -10);
+        box.hi = Vec2<double>(5, 10);
+        box.depth_lo = -20;
+        box.depth_hi = 20;
+        map.clip_from_world = clip_from_world(box, clip);
+        map.clip = clip;
+        map.visible = true;
+    }
+};
+
+BiasOptions<double> nothing() {
+    BiasOptions<double> options;
+    options.texels = 0;
+    options.depth_step = 0;
+    return options;
+}
+
+ShadowMap<double> spot_map(double z_near, double z_far) {
+    ShadowMap<double> map;
+    Pose<double> const pose = pose_looking(Vec3<double>(0), Vec3<double>(0, -1, 0), Vec3<double>(0, 0, 1));
+    map.clip_from_world = clip_from_world(perspective_view(pose, 1.0, 1.0, z_near, z_far), gl_zero_to_one_clip);
+    map.clip = gl_zero_to_one_clip;
+    map.visible = true;
+    return map;
+}
+
+}  // namespace
+
+TEST(Slope, OfALeaningPlaneIsItsTangentTimesTheTexelOverTheDepth) {
+    // y rises by 0.5 a metre of x: depth falls by 0.5 m a metre. A texel of 100 is 0.1 m wide; the map 40 m deep.
+    Overhead const overhead;
+    DepthSlope<double> const s =
+        slope(overhead.map, 100, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0);
+    EXPECT_NEAR(s.x, -0.5 * 0.1 / 40, 1e-15);
+    EXPECT_NEAR(s.y, 0.0, 1e-15);
+}
+
+TEST(Slope, IsNegatedByReversedDepthAndByFlippedTextures) {
+    Vec3<double> const point(1, 0.5, 3), normal(-0.5, 1, 0.7);
+    DepthSlope<double> const s = slope(Overhead().map, 100, point, normal, 1.0);
+    DepthSlope<double> const turned = slope(Overhead(reversed(gl_zero_to_one_clip)).map, 100, point, normal, 1.0);
+    EXPECT_NEAR(turned.x, -s.x, 1e-15);
+    EXPECT_NEAR(turned.y, -s.y, 1e-15);
+    DepthSlope<double> const flipped = slope(Overhead(d3d_clip).map, 100, point, normal, 1.0);
+    EXPECT_NEAR(flipped.x, s.x, 1e-15);
+    EXPECT_NEAR(flipped.y, -s.y, 1e-15);
+    // Stored depth is half of OpenGL's NDC depth, so the default convention has the same slope.
+    DepthSlope<double> const halved = slope(Overhead(gl_clip).map, 100, point, normal, 1.0);
+    EXPECT_NEAR(halved.x, s.x, 1e-15);
+}
+
+TEST(Slope, OfAPlaneThatTheLightGrazesIsTheLimit) {
+    Overhead const overhead;
+    DepthSlope<double> const s = slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(1, 0, 0), 0.01);
+    EXPECT_EQ(std::abs(s.x), 0.01);
+    EXPECT_LE(std::abs(s.y), 0.01);
+}
+
+TEST(Slope, WithoutANormalOrAMapIsZero) {
+    Overhead const overhead;
+    Vec3<double> const up(0, 1, 0);
+    for (auto const& s : {slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0), 1.0),
+                          slope(overhead.map, 0, Vec3<double>(0), Vec3<double>(1, 1, 1), 1.0),
+                          slope(spot_map(1, 10), 100, Vec3<double>(0, 5, 0), Vec3<double>(1, 1, 1), 1.0),
+                          slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(1, 1, 1),
+                                std::numeric_limits<double>::quiet_NaN())}) {
+        EXPECT_EQ(s.x, 0.0);
+        EXPECT_EQ(s.y, 0.0);
+    }
+}
+
+TEST(DepthGain, IsOneOverTheDepthOfAPlainMapInEveryConvention) {
+    for (ClipSpace clip : {gl_clip, vulkan_clip, reversed(vulkan_clip), d3d_clip})
+        EXPECT_NEAR(depth_gain(Overhead(clip).map, Overhead().light), 1.0 / 40, 1e-16);
+}
+
+TEST(DepthShift, OfASpotFollowsItsPerspective) {
+    // Depth f/(f-n) (1 - n/d), pulled from 8 m to 7.5 m.
+    Light<double> const light = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    double const wanted = 10.0 / 9 * (1 / 7.5 - 1 / 8.0);
+    EXPECT_NEAR(depth_shift(spot_map(1, 10), light, Vec3<double>(0, -8, 0), 0.5), wanted, 1e-14);
+    EXPECT_EQ(depth_shift(spot_map(1, 10), light, Vec3<double>(0, 8, 0), 0.5), 0.0) << "behind the light";
+}
+
+TEST(BiasFor, MetresOfAPlainMapAreAConstantShareOfItsDepth) {
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    double const rounding = bias_for(overhead.map, overhead.light, 100, options).constant;
+    options.metres = 0.2;
+    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
+    EXPECT_NEAR(bias.constant - rounding, 0.2 / 40, 1e-15);
+    EXPECT_EQ(bias.per_inverse_w, 0.0);
+}
+
+TEST(BiasFor, TheKernelCountsOnlyWhereTapsDoNotFollowThePlane) {
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    options.filter_radius = 2;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).slope_texels, 0.0, 1e-12);
+    options.tap_plane = false;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).slope_texels, 2.5, 1e-12);
+    options.texels = 0.75;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).slope_texels, 3.25, 1e-12);
+}
+
+TEST(BiasFor, AMapFarFromTheOriginGetsWhatFloatLosesThere) {
+    Overhead const overhead;
+    ShadowMap<double> far_away = overhead.map;
+    far_away.clip_from_world = rebased(far_away.clip_from_world, Vec3<double>(-1e4, 3e4, 0));
+    MapBias<double> const here = bias_for(overhead.map, overhead.light, 1024, BiasOptions<double>{});
+    MapBias<double> const there = bias_for(far_away, overhead.light, 1024, BiasOptions<double>{});
+    // x = 2e3 in NDC, 512 texels each, 4 * 2^-23: half a texel. Depth 750 of 1: 4e-4.
+    EXPECT_NEAR(there.slope_texels - here.slope_texels, 2000 * 512 * std::ldexp(4.0, -23), 1e-9);
+    EXPECT_NEAR(there.constant - here.constant, 750 * std::ldexp(4.0, -23), 1e-6);
+}
+
+TEST(BiasFor, OfASpotIsExactAtBothEndsOfItsAxisAndMoreBetween) {
+    Light<double> const light = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    ShadowMap<double> const map = spot_map(1, 10);
+    BiasOptions<double> options = nothing();
+    MapBias<double> const none = bias_for(map, light, 100, options);
+    options.metres = 1e-6;
+    MapBias<double> const some = bias_for(map, light, 100, options);
+    auto const metres = [&](double distance) {
+        double const added = depth_bias(some, distance, {}) - depth_bias(none, distance, {});
+        return added / depth_shift(map, light, Vec3<double>(0, -distance, 0), 1e-6);
+    };
+    EXPECT_NEAR(metres(1.0), 1.0, 1e-5);
+    EXPECT_NEAR(metres(10.0), 1.0, 1e-4);
+    EXPECT_GT(metres(3.0), 1.5);
+}
+
+TEST(BiasFor, TheSteepestSlopeIsThatTangentInDepthATexel) {
+    // Texels of 0.1 m by 0.2 m at most, 40 m deep.
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    options.steepest = 10;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).slope_limit, 10 * 0.2 / 40, 1e-15);
+}
+
+TEST(BiasFor, ALightWithoutDirectionOrAMapOfNothingGetsNoBias) {
+    Overhead const overhead;
+    Light<double> const dark = directional(Vec3<double>(0));
+    MapBias<double> const of_dark = bias_for(overhead.map, dark, 100, BiasOptions<double>{});
+    MapBias<double> const of_nothing = bias_for(ShadowMap<double>{}, overhead.light, 100, BiasOptions<double>{});
+    for (MapBias<double> const& bias : {of_dark, of_nothing}) {
+        EXPECT_EQ(bias.constant, 0.0);
+        EXPECT_EQ(bias.slope_texels, 0.0);
+    }
+}
+
+TEST(NormalOffset, IsTheTableOfTheKernelsReachAndTheSineOfTheAngle) {
+    Vec3<double> const up(0, 1, 0), low = glm::normalize(Vec3<double>(1, 1, 0));
+    EXPECT_NEAR(normal_offset_metres(0.1, 1, up, low), std::sqrt(2.0) * 1.5 * 0.1 * std::sqrt(0.5), 1e-15);
+    EXPECT_EQ(normal_offset_metres(0.1, 1, up, up), 0.0);
+    EXPECT_EQ(normal_offset_metres(-0.1, 1, up, low), 0.0);
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// The rules of the house that a compiler does not see, read from the sources: who includes whom, and what is never called.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path const root = SHADOWMATH_SOURCE_DIR;
+
+std::string text_of(fs::path const& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+std::string code_of(fs::path const& path) {
+    return std::regex_replace(text_of(path), std::regex("//[^\n]*"), "");
+}
+
+std::vector<fs::path> sources_under(char const* folder) {
+    std::vector<fs::path> found;
+    for (fs::directory_entry const& entry : fs::recursive_directory_iterator(root / folder))
+        if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp") found.push_back(entry.path());
+    EXPECT_FALSE(found.empty()) << folder;
+    return found;
+}
+
+std::vector<std::string> matches(std::string const& text, std::regex const& pattern, std::size_t group = 1) {
+    std::vector<std::string> found;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), pattern); it != std::sregex_iterator(); ++it)
+        found.push_back((*it)[group]);
+    return found;
+}
+
+std::vector<std::string> includes_of(fs::path const& path) {
+    return matches(text_of(path), std::regex("# *include *[<\"]([^>\"]+)[>\"]"));
+}
+
+}  // namespace
+
+TEST(House, HeadersIncludeGlmAndLightStandardHeadersOnly) {
+    std::set<std::string> const light = {"array",  "cmath",       "cstdint", "cstring",
+                                         "limits", "glm/glm.hpp", "cassert", "shadowmath_user_config.hpp"};
+    for (fs::path const& header : sources_under("include/shadowmath"))
+        for (std::string const& included : includes_of(header))
+            EXPECT_TRUE(light.count(included) == 1 || included.rfind("shadowmath/", 0) == 0)
+                << header << " includes " << included;
+}
+
+TEST(House, BackendsKnowNoTechnique) {
+    for (fs::path const& source : sources_under("backends"))
+        for (std::string const& included : includes_of(source))
+            EXPECT_NE(included.rfind("shadowmath/", 0), 0u) << source << " includes " << included;
+}
+
+TEST(House, NobodyCallsAGlmFunctionWhoseMeaningDependsOnMacros) {
+    std::regex const unsuffixed(
+        R"(\b(?:glm::)(ortho|perspective|perspectiveFov|frustum|lookAt|infinitePerspective|unProject|project)\s*[(<])");
+    for (char const* folder : {"include", "backends", "scenes", "oracle", "examples"})
+        for (fs::path const& source : sources_under(folder))
+            for (std::string const& called : matches(code_of(source), unsuffixed))
+                ADD_FAILURE() << source << " calls glm::" << called;
+}
+
+TEST(House, HeadersNeitherThrowNorAllocateNorKeepState) {
+    std::regex const forbidden(
+        R"(\b(throw|try|catch|new|delete|malloc|static_assert\(false|thread_local|typeid|dynamic_cast)\b)");
+    for (fs::path const& header : sources_under("include/shadowmath"))
+        for (std::string const& word : matches(code_of(header), forbidden)) ADD_FAILURE() << header << " says " << word;
+}
+
+TEST(House, EveryPublicFunctionIsInstantiatedByTheCompileTests) {
+    // A function at the level of the namespace starts its line; names in namespace detail are not public.
+    std::regex const declaration(R"(\n(?:\[\[nodiscard\]\] )?(?:inline|constexpr) (?:[^;{}=()]*? )?(\w+)\()");
+    std::regex const hidden(R"(\nnamespace detail \{[\s\S]*?\n\}  ?\n)");
+    std::string const called = text_of(root / "tests/compile/every_function.hpp");
+    for (fs::path const& header : sources_under("include/shadowmath"))
+        for (std::string const& name : matches(std::regex_replace(code_of(header), hidden, "\n"), declaration))
+            EXPECT_TRUE(std::regex_search(called, std::regex("\\b" + name + "\\b"))) << header << ": " << name;
+}
+
+TEST(House, EveryHeaderHasLawsOrAUnitTest) {
+    for (fs::path const& header : sources_under("include/shadowmath")) {
+        std::string const name = header.stem().string();
+        // Without a function of their own: macros and names, and what only other headers call.
+        if (name == "version" || name == "config" || name == "shadowmath" || name == "reach") continue;
+        bool const covered = fs::exists(root / "tests/laws" / header.filename()) ||
+                             fs::exists(root / "tests/unit" / (name + "_test.cpp"));
+        EXPECT_TRUE(covered) << header;
+    }
+}

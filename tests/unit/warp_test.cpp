@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/warp.hpp"
+#include "tests/support/tolerance.hpp"
+
+#include <shadowmath/aliasing.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace shadowmath;
+
+namespace {
+
+using V2 = glm::dvec2;
+using V3 = glm::dvec3;
+using V4 = glm::dvec4;
+
+double const inf = std::numeric_limits<double>::infinity();
+double const nan_ = std::numeric_limits<double>::quiet_NaN();
+
+Aabb<double> const flat_world{V3(-3000, 0, -3000), V3(3000, 0, 3000)};
+Aabb<double> const town{V3(-300, 0, -300), V3(300, 12, 300)};
+Light<double> const overhead = directional(V3(0, -1, 0));
+
+ViewVolume<double> level_view(double z_far = 200.0) {
+    return perspective_view(pose_looking(V3(0, 1.7, 0), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, z_far);
+}
+
+V3 ndc(glm::dmat4 const& m, V3 const& p) {
+    V4 const at = m * V4(p, 1.0);
+    return V3(at) / at.w;
+}
+
+// d(map share) / dz / z on the ground below the view axis: the error along the view, by the exact derivative.
+double error_along(ShadowMap<double> const& map, double z) {
+    glm::dmat4 const& m = map.clip_from_world;
+    V4 const at = m * V4(0, 0, -z, 1), slope = m * V4(0, 0, -1, 0);
+    double const ndc_per_metre = (slope.y * at.w - at.y * slope.w) / (at.w * at.w);
+    return 1.0 / (z * std::abs(ndc_per_metre) / 2.0);
+}
+
+// Eye depth at which the lower edge of the level view meets the ground.
+double first_ground(ViewVolume<double> const& view) { return view.pose.position.y / -view.bottom; }
+
+}  // namespace
+
+TEST(PrintedWarp, LeavesHalfOfTheMapEmpty) {
+    glm::dmat4 const warp = printed_simple_warp(0.5, 1.5, 0.2, 1.0);
+    EXPECT_NEAR(ndc(warp, V3(0, 0.2, 0)).y, 0.0, 1e-15);
+    EXPECT_NEAR(ndc(warp, V3(0, 1.0, 0)).y, 1.0, 1e-15);
+}
+
+TEST(PrintedWarp, CutsCastersNearTheViewerUnlessHIsTwo) {
+    EXPECT_GT(ndc(printed_simple_warp(0.5, 1.5, 0.2, 1.0), V3(0, 0.2, 0.9)).z, 1.0);
+    EXPECT_LE(ndc(printed_simple_warp(0.5, 2.0, 0.2, 1.0), V3(0, 0.2, 1.0)).z, 1.0 + 1e-15);
+}
+
+TEST(PrintedWarp, IsTheTransposeOfTheRowsInTheListing) {
+    double const w = 0.5, h = 1.5, zn = 0.2, zf = 1.0;
+    glm::dmat4 const warp = printed_simple_warp(w, h, zn, zf);
+    // A row of the listing is a column here.
+    double const listing[4][4] = {{2 * zn / w, 0, 0, 0},
+                                  {0, zf / (zf - zn), 0, 1},
+                                  {0, 0, 2 * zn / h, 0},
+                                  {0, zn * zf / (zn - zf), 0, 0}};
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(warp[c][r], listing[c][r], 1e-15);
+}
+
+TEST(CorrectedWarp, FillsTheMapFromNearToFarAndKeepsDepthInside) {
+    glm::dmat4 const warp = corrected_simple_warp(0.5, 0.2, 1.0);
+    EXPECT_NEAR(ndc(warp, V3(0, 0.2, 0)).y, -1.0, 1e-15);
+    EXPECT_NEAR(ndc(warp, V3(0, 1.0, 0)).y, 1.0, 1e-15);
+    for (double y = 0.2; y < 1.0; y += 0.05) {
+        EXPECT_LE(ndc(warp, V3(0, y, 1.0)).z, 1.0 + 1e-15);
+        EXPECT_LT(ndc(warp, V3(0, y, 0.3)).z, ndc(warp, V3(0, y, 0.4)).z);
+    }
+}
+
+TEST(CorrectedWarp, FillsTheWidthWithTheSidesOfTheView) {
+    double const k = 0.7, zn = 0.2;
+    glm::dmat4 const warp = corrected_simple_warp(2 * k * zn, zn, 1.0);
+    for (double y = zn; y <= 1.0; y += 0.1) EXPECT_NEAR(ndc(warp, V3(k * y, y, 0)).x, 1.0, 1e-15);
+}
+
+TEST(SimpleWarps, AreTheIdentityForParametersOutOfRange) {
+    for (double const bad : {0.0, -1.0, nan_, inf}) {
+        EXPECT_EQ(printed_simple_warp(bad, 1.0, 0.1, 1.0), glm::dmat4(1.0));
+        EXPECT_EQ(printed_simple_warp(1.0, bad, 0.1, 1.0), glm::dmat4(1.0));
+        EXPECT_EQ(printed_simple_warp(1.0, 1.0, bad, 1.0), glm::dmat4(1.0));
+        EXPECT_EQ(corrected_simple_warp(bad, 0.1, 1.0), glm::dmat4(1.0));
+        EXPECT_EQ(corrected_simple_warp(1.0, 0.1, bad), glm::dmat4(1.0));
+    }
+    EXPECT_EQ(corrected_simple_warp(1.0, 1.0, 1.0), glm::dmat4(1.0));
+}
+
+TEST(OptimalCentre, IsNearPlusTheGeometricMeanForALightOverhead) {
+    for (double const f : {1.5, 10.0, 1000.0, 1e6})
+        EXPECT_NEAR(1.0 / optimal_inverse_centre(1.0, f - 1.0, 1.0), 1.0 + std::sqrt(f), 1e-9 * std::sqrt(f));
+    EXPECT_NEAR(1.0 / optimal_inverse_centre(2.0, 48.0, 1.0), closed_form::best_centre(2.0, 50.0), 1e-12);
+}
+
+TEST(OptimalCentre, IsTheNearDistanceOfLightSpacePerspectiveMaps) {
+    // n_opt = (n + sqrt(n (n + d sin))) / sin, and d / (sqrt(1 + d sin / n) - 1).
+    for (double const sine : {0.05, 0.5, 0.9}) {
+        double const a = 1.0 / optimal_inverse_centre(3.0, 70.0, sine);
+        EXPECT_NEAR(a, (3.0 + std::sqrt(3.0 * (3.0 + 70.0 * sine))) / sine, 1e-9);
+        EXPECT_NEAR(a, 70.0 / (std::sqrt(1.0 + 70.0 * sine / 3.0) - 1.0), 1e-6);
+    }
+    EXPECT_EQ(optimal_inverse_centre(3.0, 70.0, 0.0), 0.0);
+}
+
+TEST(SimplePerspectiveMap, HasTheLeastWorstErrorTheSameAtBothEnds) {
+    for (double const z_far : {20.0, 200.0, 2000.0}) {
+        ViewVolume<double> const view = level_view(z_far);
+        WarpOptions<double> options;
+        options.margin_texels = 0.0;
+        ShadowMap<double> const map = simple_perspective_map(view, overhead, flat_world, flat_world, options, gl_clip);
+        ASSERT_TRUE(map.visible);
+        double const n = first_ground(view), alpha = z_far / n;
+        // The body's far end is z_far: the ground at the far plane, in the middle of the picture.
+        EXPECT_NEAR(error_along(map, n), std::sqrt(alpha) - 1 / std::sqrt(alpha), 1e-9 * alpha);
+        EXPECT_NEAR(error_along(map, z_far), std::sqrt(alpha) - 1 / std::sqrt(alpha), 1e-9 * alpha);
+        for (double z = n; z < z_far; z *= 1.1)
+            EXPECT_NEAR(error_along(map, z) / closed_form::warped_along(z, n, z_far, closed_form::best_centre(n, z_far)),
+                        1.0, 1e-9);
+    }
+}
+
+TEST(SimplePerspectiveMap, AtStrengthZeroIsTheUniformMap) {
+    WarpOptions<double> options;
+    options.strength = 0.0;
+    options.margin_texels = 0.0;
+    ViewVolume<double> const view = level_view();
+    ShadowMap<double> const map = simple_perspective_map(view, overhead, flat_world, flat_world, options, gl_clip);
+    ASSERT_TRUE(map.visible);
+    EXPECT_EQ(row(map.clip_from_world, 3), V4(0, 0, 0, 1));
+    double const n = first_ground(view);
+    EXPECT_NEAR(error_along(map, n), view.z_far / n - 1.0, 1e-9 * view.z_far);
+    EXPECT_NEAR(error_along(map, view.z_far), closed_form::uniform_along(view.z_far, n, view.z_far), 1e-9);
+}
+
+TEST(SimplePerspectiveMap, GrowsStrongerWithItsStrength) {
+    double before = inf;
+    for (double const strength : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        WarpOptions<double> options;
+        options.strength = strength;
+        ViewVolume<double> const view = level_view();
+        ShadowMap<double> const map = simple_perspective_map(view, overhead, flat_world, flat_world, options, gl_clip);
+        double const here = error_along(map, first_ground(view));
+        EXPECT_LT(here, before);
+        before = here;
+    }
+}
+
+TEST(SimplePerspectiveMap, IsExactlyUniformWhereLightAndViewAlign) {
+    for (double const angle : {0.0, 1e-9, 0.01, 0.09}) {
+        ViewVolume<double> view = level_view();
+        view.pose = pose_looking(V3(0, 30, 0), V3(0, -std::cos(angle), -std::sin(angle)), V3(0, 0, -1));
+        for (double const sign : {1.0, -1.0}) {
+            ShadowMap<double> const map =
+                simple_perspective_map(view, directional(V3(0, -sign, 0)), town, town, {}, gl_clip);
+            ASSERT_TRUE(map.visible);
+            EXPECT_EQ(row(map.clip_from_world, 3), V4(0, 0, 0, 1));
+            EXPECT_TRUE(map.faults.has(Fault::warp_faded));
+        }
+    }
+}
+
+TEST(SimplePerspectiveMap, MovesLittleWhenTheCameraTurnsLittle) {
+    // From level to straight down, through the fade: a step of a hundredth of a degree moves no point of the ground by
+    // more than a camera would see it move itself, some pixels.
+    double const step = 1.7453292519943295e-4;
+    int const size = 1024;
+    double worst = 0.0;
+    ShadowMap<double> before;
+    for (double pitch = 0.9; pitch < 1.57; pitch += step) {
+        ViewVolume<double> view = level_view();
+        view.pose = pose_looking(V3(3, 30, 2), V3(0.2 * std::cos(pitch), -std::sin(pitch), -std::cos(pitch)), V3(0, 1, 0));
+        ShadowMap<double> const map = simple_perspective_map(view, overhead, town, town, {}, gl_clip);
+        ASSERT_TRUE(map.visible);
+        if (before.visible) worst = std::max(worst, laws::moved_texels(before, map, V3(3, 0, -4), size));
+        before = map;
+    }
+    EXPECT_LT(worst, 40 * step * size);
+    EXPECT_GT(worst, 0.0);
+}
+
+TEST(SimplePerspectiveMap, StandsStillForACameraThatTremblesLookingAlongTheLight) {
+    double const tremble = 1e-5;
+    ViewVolume<double> view = level_view();
+    view.pose = pose_looking(V3(3, 30, 2), V3(0, -1, 0), V3(0.6, 0, -0.8));
+    ShadowMap<double> const still = simple_perspective_map(view, overhead, town, town, {}, gl_clip);
+    for (V3 const& shake : {V3(1, 0, 0), V3(-1, 0, 0), V3(0, 0, 1), V3(0, 0, -1), V3(0.7, 0, 0.7)}) {
+        view.pose = pose_looking(V3(3, 30, 2), V3(0, -1, 0) + shake * tremble, V3(0.6, 0, -0.8));
+        ShadowMap<double> const shaken = simple_perspective_map(view, overhead, town, town, {}, gl_clip);
+        for (V3 const& p : {V3(3, 0, 2), V3(-5, 0, 10), V3(15, 0, -8)})
+            EXPECT_LT(laws::moved_texels(still, shaken, p, 1024), 20 * tremble * 1024);
+    }
+}
+
+TEST(SimplePerspectiveMap, HoldsEveryReceiverWithItsMarginAndItsCastersInEveryConvention) {
+    ViewVolume<double> const view = level_view();
+    for (V3 const& travel : {V3(0, -1, 0), V3(1, -0.3, 0.2), V3(0, -0.3, 1), V3(0, -0.3, -1), V3(0.1, -0.05, 0.4)})
+        for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, d3d_clip, reversed(vulkan_clip)}) {
+            Light<double> const light = directional(travel);
+            WarpOptions<double> const options;
+            ShadowMap<double> const map = simple_perspective_map(view, light, town, town, options, clip);
+            ASSERT_TRUE(map.visible);
+            EXPECT_TRUE(laws::is_map_of(map.clip_from_world, light, clip));
+            double const margin = 2 * options.margin_texels / options.map_size;
+            int seen = 0;
+            for (double x = -1; x <= 1; x += 0.25)
+                for (double y = -1; y <= 1; y += 0.125)
+                    for (double z = 0.1; z < 200.0; z *= 1.3) {
+                        V3 const p = point_at(view, x * view.right, y * view.top, z);
+                        if (!contains(town, p)) continue;
+                        ++seen;
+                        EXPECT_TRUE(laws::serves(map, p, margin));
+                        V3 const caster = p - light.direction * ((12.0 - p.y) / -light.direction.y);
+                        if (!contains(Aabb<double>{town.lo, town.hi + V3(0, 1e-9, 0)}, caster)) continue;
+                        EXPECT_TRUE(laws::serves(map, caster, margin));
+                        EXPECT_TRUE(laws::keeps_the_order(map, caster, p));
+                    }
+            EXPECT_GT(seen, 100);
+        }
+}
+
+TEST(SimplePerspectiveMap, ServesOrthographicViewsUniformly) {
+    ViewVolume<double> const view =
+        orthographic_view(pose_looking(V3(0, 50, 0), V3(1, -1, 0), V3(0, 1, 0)), -20.0, 20.0, -20.0, 20.0, 1.0, 200.0);
+    ShadowMap<double> const map = simple_perspective_map(view, overhead, town, town, {}, gl_clip);
+    ASSERT_TRUE(map.visible);
+    EXPECT_EQ(row(map.clip_from_world, 3), V4(0, 0, 0, 1));
+    EXPECT_FALSE(map.faults.any());
+}
+
+TEST(SimplePerspectiveMap, GivesSpotsTheirPlainFit) {
+    Light<double> const lamp = spot(V3(0, 10, -12), V3(0, -1, 0), 0.8, 30.0);
+    WarpOptions<double> const options;
+    ShadowMap<double> const map = simple_perspective_map(level_view(), lamp, town, town, options, gl_clip);
+    ShadowMap<double> const plain = fit_spot(level_view(), lamp, town, town, options.map_size, options.margin_texels, gl_clip);
+    EXPECT_TRUE(map.visible);
+    EXPECT_FALSE(map.faults.any());
+    EXPECT_EQ(map.clip_from_world, plain.clip_from_world);
+}
+
+TEST(SimplePerspectiveMap, HasNothingToShowWithoutCastersOrReceiversAndSaysNoFault) {
+    Aabb<double> const behind{V3(-5, 0, 50), V3(5, 1, 60)}, below{V3(-300, -20, -300), V3(300, -10, 300)};
+    for (auto const& [casters, receivers] : {std::pair{Aabb<double>{}, town}, std::pair{town, Aabb<double>{}},
+                                             std::pair{town, behind}, std::pair{below, flat_world}}) {
+        ShadowMap<double> const map = simple_perspective_map(level_view(), overhead, casters, receivers, {}, gl_clip);
+        EXPECT_FALSE(map.visible);
+        EXPECT_FALSE(map.faults.any());
+        EXPECT_TRUE(laws::harmless(map));
+    }
+}
+
+TEST(SimplePerspectiveMap, ServesAPointALineAndAPlane) {
+    for (V3 const& extent : {V3(0), V3(4, 0, 0), V3(0, 4, 0), V3(4, 0, 4), V3(0, 4, 4)}) {
+        Aabb<double> const body{V3(1, 0.5, -12), V3(1, 0.5, -12) + extent};
+        ShadowMap<double> const map = simple_perspective_map(level_view(), directional(V3(1, -2, 0)), body, body, {}, gl_clip);
+        EXPECT_TRUE(map.visible);
+        EXPECT_TRUE(laws::serves(map, body.lo, 0.0));
+        EXPECT_TRUE(laws::serves(map, body.hi, 0.0));
+    }
+}
+
+TEST(SimplePerspectiveMap, MendsBoxesWithoutEndAndAViewWithoutEnd) {
+    Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()), glm::vec3(std::numeric_limits<float>::max())};
+    ViewVolume<float> view = perspective_view(
+        pose_looking(glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
+    Light<float> const sun = directional(glm::vec3(0.4f, -1.0f, 0.3f));
+    ShadowMap<float> const whole = simple_perspective_map(view, sun, endless, endless, {}, gl_clip);
+    EXPECT_TRUE(whole.visible);
+    EXPECT_FALSE(whole.faults.any());
+    EXPECT_TRUE(laws::serves(whole, glm::vec3(0, 0, -100), 0.0f));
+    view.z_far = std::numeric_limits<float>::infinity();
+    Aabb<float> const town_box{glm::vec3(-300, 0, -300), glm::vec3(300, 12, 300)};
+    ShadowMap<float> const far = simple_perspective_map(view, sun, town_box, town_box, {}, gl_clip);
+    EXPECT_TRUE(far.visible);
+    EXPECT_TRUE(far.faults.has(Fault::far_clamped));
+    EXPECT_TRUE(laws::serves(far, glm::vec3(0, 0, -290), 0.0f));
+}
+
+TEST(SimplePerspectiveMap, SaysWhenTheScalarIsTooSmallForThePlace) {
+    Vec3<float> const away(3e6f, 0, 0);
+    ViewVolume<float> const view = perspective_view(
+        pose_looking(away + glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 50.0f);
+    Aabb<float> const town_box{away + glm::vec3(-300, 0, -300), away + glm::vec3(300, 12, 300)};
+    ShadowMap<float> const map =
+        simple_perspective_map(view, directional(glm::vec3(0.4f, -1.0f, 0.3f)), town_box, town_box, {}, gl_clip);
+    EXPECT_TRUE(map.faults.has(Fault::precision_lost));
+    ViewVolume<double> const fine = perspective_view(
+        pose_looking(V3(away) + V3(0, 1.7, 0), V3(0, -0.1, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 50.0);
+    Aabb<double> const fine_box{V3(town_box.lo), V3(town_box.hi)};
+    EXPECT_FALSE(simple_perspective_map(fine, directional(V3(0.4, -1, 0.3)), fine_box, fine_box, {}, gl_clip).faults.any());
+}
+
+TEST(SimplePerspectiveMap, ClampsItsStrengthAndRefusesBadMaps) {
+    WarpOptions<double> options;
+    options.strength = 7.0;
+    ShadowMap<double> const clamped = simple_perspective_map(level_view(), overhead, town, town, options, gl_clip);
+    EXPECT_TRUE(clamped.faults.has(Fault::clamped_option));
+    EXPECT_EQ(clamped.clip_from_world, simple_perspective_map(level_view(), overhead, town, town, {}, gl_clip).clip_from_world);
+    options.strength = nan_;
+    EXPECT_TRUE(simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::not_finite));
+    options = {};
+    options.map_size = 2;
+    EXPECT_TRUE(simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::map_too_small));
+}
