@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 
@@ -25,7 +26,8 @@ struct LogAxis {
     double from_value, to_value, from_place, to_place;
 
     [[nodiscard]] double at(double value) const {
-        double const t = std::log(std::clamp(value, from_value, to_value) / from_value) / std::log(to_value / from_value);
+        double const t =
+            std::log(std::clamp(value, from_value, to_value) / from_value) / std::log(to_value / from_value);
         return from_place + (to_place - from_place) * t;
     }
 };
@@ -39,7 +41,7 @@ void depth_axis(Svg& svg, LogAxis const& x, double top, double bottom) {
 }
 
 // A map of the depths begin to end under a light from straight above, `centre` behind its near end the centre of its
-// projection (infinite: orthographic). World: x right, y up, eye at the origin looking along +z. The map's width is made
+// projection (infinite: orthographic). World: x right, y up, eye at the origin looking along +z. The map's width is
 // so small that a texel's longer axis always lies along the depth.
 glm::dmat4 overhead_map(double begin, double end, double centre) {
     double const narrow = 1e-4;
@@ -66,6 +68,12 @@ double measured_aliasing(glm::dmat4 const& map_clip_from_world, double z) {
     return texel.major / closed_form::pixels_per_texel(pixels, 1.0, texels);
 }
 
+std::string percent_of(double fraction) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f %%", 100.0 * fraction);
+    return text;
+}
+
 double mean(std::vector<double> const& values) {
     double sum = 0.0;
     for (double const value : values) sum += value;
@@ -79,8 +87,8 @@ std::string splits_chart() {
         char const* name;
         double lambda;
     };
-    constexpr Scheme schemes[] = {{"uniform", 0.0}, {"practical, \xce\xbb 0.5", 0.5}, {"practical, \xce\xbb 0.9", 0.9},
-                                  {"logarithmic", 1.0}};
+    constexpr Scheme schemes[] = {
+        {"uniform", 0.0}, {"practical, \xce\xbb 0.5", 0.5}, {"practical, \xce\xbb 0.9", 0.9}, {"logarithmic", 1.0}};
     LogAxis const x{z_near, z_far, 130.0, width - 24.0};
     Svg svg(width, 230.0, "Split planes of four cascades between 1 m and 1 km for each scheme, on a logarithmic axis");
     depth_axis(svg, x, 14.0, 180.0);
@@ -106,7 +114,7 @@ std::string aliasing_chart() {
     struct Scheme {
         char const* name;
         char const* css_class;
-        double lambda;    // of four cascades; below 0: one map
+        double lambda;  // of four cascades; below 0: one map
         double centre;
     };
     Scheme const schemes[] = {{"one uniform map", "s0", -1.0, endless},
@@ -116,7 +124,8 @@ std::string aliasing_chart() {
 
     LogAxis const x{z_near, z_far, 56.0, width - 24.0};
     LogAxis const y{0.3, 1500.0, 330.0, 44.0};
-    Svg svg(width, 380.0, "Perspective aliasing along eye depth for four schemes: closed forms and measured footprints");
+    Svg svg(width, 380.0,
+            "Perspective aliasing along eye depth for four schemes: closed forms and measured footprints");
     depth_axis(svg, x, y.to_place, y.from_place);
     for (double const e : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0}) {
         svg.line(x.from_place, y.at(e), x.to_place, y.at(e), "grid");
@@ -135,7 +144,8 @@ std::string aliasing_chart() {
         for (int i = 0; i < splits.count; ++i) {
             double const n = splits.plane[i], f = splits.plane[i + 1], centre = scheme.centre;
             auto const predicted = [=](double z) {
-                return std::isinf(centre) ? closed_form::uniform_along(z, n, f) : closed_form::warped_along(z, n, f, centre);
+                return std::isinf(centre) ? closed_form::uniform_along(z, n, f)
+                                          : closed_form::warped_along(z, n, f, centre);
             };
             glm::dmat4 const map = overhead_map(n, f, centre);
             Points curve;
@@ -154,7 +164,8 @@ std::string aliasing_chart() {
     }
     double const best = closed_form::logarithmic_along(z_near, z_far);
     svg.line(x.from_place, y.at(best), x.to_place, y.at(best), "bound");
-    svg.text(x.from_place + 6, y.at(best) - 6, "start", "tick halo", "one logarithmic map, the optimum: ln(far/near) = " + figure(best));
+    svg.text(x.from_place + 6, y.at(best) - 6, "start", "tick halo",
+             "one logarithmic map, the optimum: ln(far/near) = " + figure(best));
     return svg.str();
 }
 
@@ -197,13 +208,13 @@ std::string technique_chart(std::span<Technique const> techniques, Results const
     }
     double y = 34.0;
     for (Bar const& bar : bars) {
-        std::string const percent = figure(100.0 * bar.mean) + " %";
+        std::string const percent = percent_of(bar.mean);
         svg.text(left - 10, y + 14, "end", "label", bar.technique->title);
         svg.rect(left, y + 2, std::max(bar.mean * scale, 1.0), row - 8, "bar", bar.technique->id + ": " + percent);
         for (std::size_t i = 0; i < bar.of_scene.size(); ++i) {
             if (bar.of_scene[i] < 0.0) continue;
             svg.dot(left + bar.of_scene[i] * scale, y + row / 2 - 2, 4.5, "scene s" + std::to_string(i % 4),
-                    scenes[i] + ": " + figure(100.0 * bar.of_scene[i]) + " %");
+                    scenes[i] + ": " + percent_of(bar.of_scene[i]));
         }
         svg.text(width - 8, y + 14, "end", "label", percent);
         y += row;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Renders scenes through every technique and backend, holds each picture against ray-traced truth, and writes a page that
-// shows it all.
+// Renders scenes through every technique and backend, holds each picture against ray-traced truth, and writes a page
+// that shows it all.
 #include "backends/gl/gl_backend.hpp"
 #include "examples/gallery/page.hpp"
 #include "examples/gallery/results.hpp"
@@ -59,7 +59,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_flag("--quick", settings.quick, "fewer views and techniques, smaller scenes and pictures");
-    app.add_option("--out", settings.out, "folder to write; an earlier gallery there is replaced")->capture_default_str();
+    app.add_option("--out", settings.out, "folder to write; an earlier gallery there is replaced")
+        ->capture_default_str();
     app.add_option("--backend", settings.backend, "egl, osmesa or all")
         ->check(CLI::IsMember({"egl", "osmesa", "all"}))
         ->capture_default_str();

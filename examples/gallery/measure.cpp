@@ -12,7 +12,9 @@
 namespace shadowmath::gallery {
 namespace {
 
-glm::dvec3 xyz(backend::Texel4 const& texel) { return {texel.x, texel.y, texel.z}; }
+glm::dvec3 xyz(backend::Texel4 const& texel) {
+    return {texel.x, texel.y, texel.z};
+}
 
 // Drivers may resolve a silhouette differently; such a pixel shows another surface than the one that was judged.
 bool same_surface(glm::dvec3 seen, glm::dvec3 judged, glm::dvec3 eye) {
@@ -46,13 +48,16 @@ void summarise_footprints(Record& record, std::vector<float> footprints) {
     if (footprints.empty()) return;
     record.footprint_mean =
         std::accumulate(footprints.begin(), footprints.end(), 0.0) / static_cast<double>(footprints.size());
-    auto const p95 = footprints.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(footprints.size() - 1));
+    auto const p95 =
+        footprints.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(footprints.size() - 1));
     std::nth_element(footprints.begin(), p95, footprints.end());
     record.footprint_p95 = *p95;
     record.footprint_max = *std::max_element(p95, footprints.end());
 }
 
-double share(long part, long whole) { return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0; }
+double share(long part, long whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
 
 }  // namespace
 
@@ -77,7 +82,8 @@ Measurement measure(ViewTruth const& truth, MapSet const& maps, backend::Frame c
         glm::dvec3 const point = xyz(position);
         auto const map = static_cast<std::ptrdiff_t>(position.w);
         bool const mapped = map >= 0 && map < static_cast<std::ptrdiff_t>(maps.maps.size());
-        glm::dmat4 const* const clip_from_world = mapped ? &maps.maps[static_cast<std::size_t>(map)].clip_from_world : nullptr;
+        glm::dmat4 const* const clip_from_world =
+            mapped ? &maps.maps[static_cast<std::size_t>(map)].clip_from_world : nullptr;
         if (mapped) touch(result.touched[static_cast<std::size_t>(map)], *clip_from_world, point);
 
         Question question = truth.question.pixels[i];

@@ -11,20 +11,20 @@
 namespace shadowmath::gallery {
 
 enum class Outcome : std::uint8_t {
-    unasked,               // sky, or a surface that does not face the light
-    beyond,                // farther than shadows are drawn
+    unasked,  // sky, or a surface that does not face the light
+    beyond,   // farther than shadows are drawn
     right,
-    edge_shadow,           // in shadow where the truth is light, within a pixel or so of a true edge
-    edge_light,            // in light where the truth is shadow, there
+    edge_shadow,  // in shadow where the truth is light, within a pixel or so of a true edge
+    edge_light,   // in light where the truth is shadow, there
     false_shadow,
     false_light
 };
 
 struct Measurement {
-    Record record;                                     // the figures; names and times are the caller's to fill in
+    Record record;  // the figures; names and times are the caller's to fill in
     backend::Image<Outcome> outcome;
-    backend::Image<float> footprint;                   // eye pixels along a texel's longer axis; 0 where no map serves
-    std::vector<backend::Image<std::uint8_t>> touched; // a map each: 1 where a pixel's lookup reads the texel
+    backend::Image<float> footprint;                    // eye pixels along a texel's longer axis; 0 where no map serves
+    std::vector<backend::Image<std::uint8_t>> touched;  // a map each: 1 where a pixel's lookup reads the texel
 };
 
 // A pixel is mis-shadowed when (visibility >= 1/2) is not what ray tracing says; frame has the extent of the truth.

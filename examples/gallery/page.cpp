@@ -38,7 +38,8 @@ std::string page(std::span<Technique const> techniques, Results const& results, 
     };
     std::string text = page_html;
     for (auto const& [mark, part] : parts)
-        if (std::size_t const place = text.find(mark); place != std::string::npos) text.replace(place, mark.size(), part);
+        if (std::size_t const place = text.find(mark); place != std::string::npos)
+            text.replace(place, mark.size(), part);
     return text;
 }
 

@@ -7,17 +7,31 @@
 namespace shadowmath::gallery {
 namespace {
 
-constexpr double finest_footprint = 0.25;   // eye pixels a texel, the cold end of the scale
-constexpr double coarsest_footprint = 16.0; // and the bright one
+constexpr double finest_footprint = 0.25;    // eye pixels a texel, the cold end of the scale
+constexpr double coarsest_footprint = 16.0;  // and the bright one
 
 // Dark blue to pale yellow with evenly rising lightness, so that it reads in grey and to every eye.
-constexpr std::array<Colour, 8> heat{{{38, 20, 86}, {52, 66, 148}, {34, 112, 160}, {30, 148, 146},
-                                      {82, 180, 110}, {170, 203, 72}, {240, 214, 78}, {255, 246, 205}}};
+constexpr std::array<Colour, 8> heat{{{38, 20, 86},
+                                      {52, 66, 148},
+                                      {34, 112, 160},
+                                      {30, 148, 146},
+                                      {82, 180, 110},
+                                      {170, 203, 72},
+                                      {240, 214, 78},
+                                      {255, 246, 205}}};
 
-constexpr std::array<Colour, 8> tints{{{214, 72, 66}, {236, 156, 58}, {228, 213, 84}, {96, 178, 96},
-                                       {62, 164, 190}, {78, 104, 196}, {146, 92, 190}, {204, 104, 158}}};
+constexpr std::array<Colour, 8> tints{{{214, 72, 66},
+                                       {236, 156, 58},
+                                       {228, 213, 84},
+                                       {96, 178, 96},
+                                       {62, 164, 190},
+                                       {78, 104, 196},
+                                       {146, 92, 190},
+                                       {204, 104, 158}}};
 
-std::uint8_t byte(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
+std::uint8_t byte(double value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
 
 Colour mix(Colour a, Colour b, double t) {
     Colour mixed{};
@@ -25,7 +39,9 @@ Colour mix(Colour a, Colour b, double t) {
     return mixed;
 }
 
-Colour scaled(Colour c, double brightness) { return mix({0, 0, 0}, c, brightness); }
+Colour scaled(Colour c, double brightness) {
+    return mix({0, 0, 0}, c, brightness);
+}
 
 Colour heat_at(double t) {
     double const place = std::clamp(t, 0.0, 1.0) * (heat.size() - 1);
@@ -33,7 +49,9 @@ Colour heat_at(double t) {
     return mix(heat[below], heat[below + 1], place - static_cast<double>(below));
 }
 
-double lightness(backend::Rgba8 p) { return (0.299 * p.r + 0.587 * p.g + 0.114 * p.b) / 255.0; }
+double lightness(backend::Rgba8 p) {
+    return (0.299 * p.r + 0.587 * p.g + 0.114 * p.b) / 255.0;
+}
 
 struct DepthRange {
     float lo, hi;
@@ -65,7 +83,8 @@ public:
     }
 
     [[nodiscard]] std::uint8_t index(int band, double shade) const {
-        return static_cast<std::uint8_t>(band * shades_ + static_cast<int>(std::lround(std::clamp(shade, 0.0, 1.0) * (shades_ - 1))));
+        return static_cast<std::uint8_t>(band * shades_ +
+                                         static_cast<int>(std::lround(std::clamp(shade, 0.0, 1.0) * (shades_ - 1))));
     }
 
     [[nodiscard]] std::vector<Colour> take() { return std::move(palette_); }
@@ -82,7 +101,9 @@ Colour grey(double low, double high, double shade) {
 
 // From a colour's shadow side to its light side.
 auto toned(Colour colour, double darkest, double whitest) {
-    return [=](double shade) { return mix(scaled(colour, darkest + (1.0 - darkest) * shade), {255, 255, 255}, whitest * shade); };
+    return [=](double shade) {
+        return mix(scaled(colour, darkest + (1.0 - darkest) * shade), {255, 255, 255}, whitest * shade);
+    };
 }
 
 }  // namespace
@@ -93,13 +114,15 @@ std::vector<Colour> footprint_scale(int steps) {
     return scale;
 }
 
-Colour map_tint(int map) { return tints[static_cast<std::size_t>(std::max(map, 0)) % tints.size()]; }
+Colour map_tint(int map) {
+    return tints[static_cast<std::size_t>(std::max(map, 0)) % tints.size()];
+}
 
 IndexedPicture difference_picture(backend::Image<backend::Rgba8> const& truth, backend::Image<Outcome> const& outcome) {
     Bands bands(36);
-    bands.add([](double s) { return grey(14, 60, s); });             // unasked
-    bands.add([](double s) { return grey(14, 60, s); });             // beyond
-    bands.add([](double s) { return grey(34, 150, s); });            // right
+    bands.add([](double s) { return grey(14, 60, s); });                         // unasked
+    bands.add([](double s) { return grey(14, 60, s); });                         // beyond
+    bands.add([](double s) { return grey(34, 150, s); });                        // right
     bands.add([](double s) { return mix({112, 52, 44}, {168, 110, 96}, s); });   // edge_shadow
     bands.add([](double s) { return mix({40, 66, 112}, {96, 128, 176}, s); });   // edge_light
     bands.add([](double s) { return mix({226, 40, 24}, {255, 104, 70}, s); });   // false_shadow
@@ -169,7 +192,8 @@ IndexedPicture maps_picture(std::span<backend::Image<float> const> depths,
                 float nearest = 1.0f;
                 bool is_read = false;
                 for (int j = from_y; j < to_y; ++j)
-                    for (int i = from_x; i < to_x; ++i) nearest = std::min(nearest, depth.at(i, j)), is_read |= read.at(i, j) != 0;
+                    for (int i = from_x; i < to_x; ++i)
+                        nearest = std::min(nearest, depth.at(i, j)), is_read |= read.at(i, j) != 0;
                 bool const is_drawn = nearest < 1.0f;
                 Band const band = is_drawn ? (is_read ? drawn_read : drawn) : is_read ? empty_read : empty;
                 picture.indices.at(map * (shown + gap) + x, y) =

@@ -12,11 +12,11 @@
 
 namespace shadowmath::gallery {
 
-using Colour = std::array<std::uint8_t, 3>;   // sRGB
+using Colour = std::array<std::uint8_t, 3>;  // sRGB
 
 // A picture of at most 256 colours: an order of magnitude smaller on disk than one of three channels.
 struct IndexedPicture {
-    backend::Image<std::uint8_t> indices;     // into the palette
+    backend::Image<std::uint8_t> indices;  // into the palette
     std::vector<Colour> palette;
 };
 

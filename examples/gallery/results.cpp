@@ -38,13 +38,14 @@ Json to_json(Record const& r) {
 }
 
 Json to_json(Claim const& c) {
-    return {{"id", c.id},           {"source", c.source}, {"statement", c.statement},
-            {"measured", c.measured}, {"holds", c.holds},   {"reason", c.reason}};
+    return {{"id", c.id},       {"source", c.source}, {"statement", c.statement}, {"measured", c.measured},
+            {"holds", c.holds}, {"reason", c.reason}};
 }
 
 Json to_json(Technique const& t) {
-    return {{"id", t.id}, {"title", t.title}, {"source", t.source}, {"map_size", t.map_size}, {"maps", t.maps},
-            {"serves_spots", t.serves_spots}};
+    return {{"id", t.id},         {"title", t.title},
+            {"source", t.source}, {"map_size", t.map_size},
+            {"maps", t.maps},     {"serves_spots", t.serves_spots}};
 }
 
 // Degrees of the light above the horizon.
@@ -86,7 +87,8 @@ Json list(Items const& items) {
 std::string results_json(Settings const& settings, std::span<scenes::NamedScene const> scenes, Backends backends,
                          Results const& results) {
     Json drivers = Json::array();
-    for (auto const& backend : backends) drivers.push_back({{"name", backend->info().name}, {"driver", backend->info().driver}});
+    for (auto const& backend : backends)
+        drivers.push_back({{"name", backend->info().name}, {"driver", backend->info().driver}});
     Json shown = Json::array();
     for (auto const& named : scenes) shown.push_back(to_json(named, settings));
     Json heat = Json::array(), tints = Json::array();

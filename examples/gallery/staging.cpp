@@ -22,7 +22,8 @@ bool may_be_replaced(fs::path const& destination) {
     if (!fs::exists(fs::symlink_status(destination, error))) return true;
     if (!fs::is_directory(destination, error)) return false;
     bool const empty = fs::is_empty(destination, error);
-    return !error && (empty || (fs::exists(destination / "results.json", error) && fs::exists(destination / "index.html", error)));
+    return !error && (empty || (fs::exists(destination / "results.json", error) &&
+                                fs::exists(destination / "index.html", error)));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace shadowmath::gallery {
 
 class Staging {
 public:
-    // Makes an empty folder beside `destination`. Throws std::runtime_error, one line, when that cannot be done, or when
-    // something other than an earlier gallery stands at the destination: it will not be overwritten.
+    // Makes an empty folder beside `destination`. Throws std::runtime_error, one line, when that cannot be done, or
+    // when something other than an earlier gallery stands at the destination: it will not be overwritten.
     explicit Staging(std::filesystem::path const& destination);
     ~Staging();  // removes what was not published
     Staging(Staging const&) = delete;

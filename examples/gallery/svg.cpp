@@ -18,7 +18,9 @@ std::string attribute(std::string_view name, std::string_view value) {
     return text.append(name).append("=\"").append(escaped(value)).append("\"");
 }
 
-std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }
+std::string attribute(std::string_view name, double value) {
+    return attribute(name, number(value));
+}
 
 // The end of an element, with what the pointer hovering over it is told.
 std::string closed(std::string_view element, std::string_view hint) {
@@ -75,8 +77,8 @@ void Svg::dot(double x, double y, double radius, std::string_view css_class, std
 }
 
 void Svg::rect(double x, double y, double width, double height, std::string_view css_class, std::string_view hint) {
-    text_ += "<rect" + attribute("x", x) + attribute("y", y) + attribute("width", width) +
-             attribute("height", height) + attribute("class", css_class) + closed("rect", hint);
+    text_ += "<rect" + attribute("x", x) + attribute("y", y) + attribute("width", width) + attribute("height", height) +
+             attribute("class", css_class) + closed("rect", hint);
 }
 
 void Svg::text(double x, double y, std::string_view anchor, std::string_view css_class, std::string_view text) {

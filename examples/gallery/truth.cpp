@@ -13,7 +13,9 @@ backend::Frame drawn(backend::Backend& backend, backend::Extent extent, backend:
     return backend.read_frame();
 }
 
-glm::dvec3 point_of(backend::Texel4 const& texel) { return {texel.x, texel.y, texel.z}; }
+glm::dvec3 point_of(backend::Texel4 const& texel) {
+    return {texel.x, texel.y, texel.z};
+}
 
 bool outside_cone(backend::FrameConstants const& frame, glm::dvec3 point) {
     if (frame.spot_axis.w <= -2.0f) return false;
@@ -24,7 +26,8 @@ bool outside_cone(backend::FrameConstants const& frame, glm::dvec3 point) {
 
 bool beyond_shadows(backend::FrameConstants const& frame, scenes::View const& view, glm::dvec3 point) {
     double const depth = glm::dot(glm::dvec3(frame.eye_forward), point - glm::dvec3(frame.eye_position));
-    return depth > view.shadow_distance || (view.has_spot && glm::distance(point, view.spot_position) > view.spot_range);
+    return depth > view.shadow_distance ||
+           (view.has_spot && glm::distance(point, view.spot_position) > view.spot_range);
 }
 
 Question question_at(backend::FrameConstants const& frame, scenes::View const& view, glm::dvec3 point,
@@ -60,8 +63,7 @@ ViewTruth true_view(backend::Backend& backend, oracle::RayOracle const& oracle, 
         oracle::Truth const state = truth.state.pixels[i];
         truth.question.pixels[i] =
             question_at(frame, view, point_of(in_light.position.pixels[i]), state, judges.pixels[i]);
-        truth.picture.pixels[i] =
-            (state == oracle::Truth::shadowed ? in_dark : in_light).colour.pixels[i];
+        truth.picture.pixels[i] = (state == oracle::Truth::shadowed ? in_dark : in_light).colour.pixels[i];
     }
     return truth;
 }

@@ -12,10 +12,10 @@
 namespace shadowmath::gallery {
 
 enum class Question : std::uint8_t {
-    none,          // sky, a surface turned away from the light, or one outside the spot light's cone
-    beyond,        // farther than shadows are drawn
-    near_edge,     // the true border between light and shadow passes within a pixel or so: both answers are right
-    off_edge       // only one answer is
+    none,       // sky, a surface turned away from the light, or one outside the spot light's cone
+    beyond,     // farther than shadows are drawn
+    near_edge,  // the true border between light and shadow passes within a pixel or so: both answers are right
+    off_edge    // only one answer is
 };
 
 struct ViewTruth {

@@ -8,8 +8,8 @@
 //   depth row = k along + c w + (a constant)          keeps the order along every light ray.
 //
 // Which one? Depth is divided by w, and w varies over the map. The constant is chosen so that the end that a depth
-// buffer counts from lies at 0 for every w: depth = k (along - first) / w, or 1 - depth = k (last - along) / w where a sun's
-// depth is reversed. k is the largest for which no receiver leaves [0, 1]. Then
+// buffer counts from lies at 0 for every w: depth = k (along - first) / w, or 1 - depth = k (last - along) / w where a
+// sun's depth is reversed. k is the largest for which no receiver leaves [0, 1]. Then
 //   24 bits: a step of the buffer is worth 2^-24 w / k, as fine as any depth row can have it where w is least;
 //   float:   the stored value falls with 1 / w as the step does, so its relative precision makes up for it.
 // In OpenGL's default depth range the value passes through [-1, 1] and that gain of float is lost.
@@ -43,7 +43,7 @@ struct MapRows {
     Vec4<T> along;           // along . source = 1: grows with the light, in any unit
     Vec4<T> source;          // the light itself, homogeneous and relative to the eye
     bool parallel = true;    // a sun: w is the same all along a light ray
-    T along_floor = std::numeric_limits<T>::lowest();  // casters below are cut away: what keeps them off a light's position
+    T along_floor = std::numeric_limits<T>::lowest();  // casters below are cut: keeps them off a spot's position
     T w_min = T(0);          // > 0; receivers at or below are not the map's
     T least_width = T(0);    // of the region, in units of x / w and y / w: one texel, when the receivers are a point
     bool crop = true;        // false: the region is [-1, 1]^2 as it is
@@ -128,11 +128,11 @@ template <class T>
 
 }  // namespace detail
 
-// Every vertex of `receivers` (relative to the eye) with w >= w_min lies inside the map, `margin_texels` from its sides,
-// with stored depth in [0, 1]; so does every caster between it and the light; those of a sun as far as 1024 times the
-// receivers' distance from the eye. Farther ones need depth clamp. Not visible, and no fault: no receivers, or no caster above them.
-// precision_lost: so far from the world's origin that the matrix moves by more than half a texel from one
-// representable place to the next; rebase it (light_box.hpp), or use double.
+// Every vertex of `receivers` (relative to the eye) with w >= w_min lies inside the map, `margin_texels` from its
+// sides, with stored depth in [0, 1]; so does every caster between it and the light; those of a sun as far as 1024
+// times the receivers' distance from the eye. Farther ones need depth clamp. Not visible, and no fault: no receivers,
+// or no caster above them. precision_lost: so far from the world's origin that the matrix moves by more than half a
+// texel from one representable place to the next; rebase it (light_box.hpp), or use double.
 template <class T>
 [[nodiscard]] inline ShadowMap<T> map_from_rows(MapRows<T> rows, Vec3<T> const& eye, ConvexBody<T> const& receivers,
                                                 Aabb<T> const& casters, int map_size, T margin_texels,
@@ -191,7 +191,8 @@ template <class T>
         });
         depth = (rows.along - one * along.lo) * (T(1) / deepest);
     }
-    Mat4<T> const clip_from_world = rebased(clip_from_canonical<T>(clip) * from_rows(rows.x, rows.y, depth, rows.w), -eye);
+    Mat4<T> const canonical_from_eye = from_rows(rows.x, rows.y, depth, rows.w);
+    Mat4<T> const clip_from_world = rebased(clip_from_canonical<T>(clip) * canonical_from_eye, -eye);
     if (!all_finite(clip_from_world)) {
         map.faults = Fault::precision_lost;
         return map;

@@ -61,8 +61,8 @@ inline void for_each_vertex(ConvexBody<T> const& body, Visit&& visit) noexcept {
     }
 }
 
-// The part where half_space . (p, 1) >= 0. Flat bodies and planes through vertices are no special case: a vertex is inside
-// or outside, the same for all its edges.
+// The part where half_space . (p, 1) >= 0. Flat bodies and planes through vertices are no special case: a vertex is
+// inside or outside, the same for all its edges.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> clipped(ConvexBody<T> const& body, Vec4<T> const& half_space) noexcept {
     SHADOWMATH_ASSERT(body.face_count < max_body_faces, "a convex body was cut too often");
@@ -96,8 +96,8 @@ template <class T>
     return kept;
 }
 
-// What a view sees of a box, RELATIVE TO THE EYE: add view.pose.position for world points. Boxes of +-FLT_MAX are cut to
-// the bounds of the view before any arithmetic. A valid view with a finite z_far; an empty box gives an empty body.
+// What a view sees of a box, RELATIVE TO THE EYE: add view.pose.position for world points. Boxes of +-FLT_MAX are cut
+// to the bounds of the view before any arithmetic. A valid view with a finite z_far; an empty box gives an empty body.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world) noexcept {
     if (is_empty(box_in_world)) return {};

@@ -73,8 +73,8 @@ template <class T>
     return {region.lo - border, region.hi + border};
 }
 
-// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or not
-// finite gives the identity.
+// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or
+// not finite gives the identity.
 template <class T>
 [[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
@@ -92,8 +92,8 @@ template <class T>
     return inside ? Faults{} : Faults(Fault::bad_region);
 }
 
-// The whole map lands on the tile: tile_matrix * clip_from_world is the map inside its atlas, to look receivers up with.
-// The identity where faults_of(tile) says bad_region.
+// The whole map lands on the tile: tile_matrix * clip_from_world is the map inside its atlas, to look receivers up
+// with. The identity where faults_of(tile) says bad_region.
 //
 // NOTE: nothing clips to the tile. Draw casters with the plain matrix and the tile as the viewport, and test
 // a receiver against the plain matrix first: a point beyond the map lands in a neighbour's tile.

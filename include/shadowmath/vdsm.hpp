@@ -9,14 +9,14 @@
 //     _______Q___Q___Q___/____ pi
 //                                   is an ordinary 4x4, for suns and spots alike.
 //
-// Use it where most receivers lie near one plane: ground, water, a floor. Not for towers: a receiver well above the plane
-// may be seen from the plane point BEHIND the eye that its light ray meets (w <= 0). Such receivers are not the map's;
-// test receiver_valid, and light them by a second map.
+// Use it where most receivers lie near one plane: ground, water, a floor. Not for towers: a receiver well above the
+// plane may be seen from the plane point BEHIND the eye that its light ray meets (w <= 0). Such receivers are not the
+// map's; test receiver_valid, and light them by a second map.
 //
 // Source: T. Kwon, "View-dependent Shadow Maps Using Projective Geometry" (in Korean), Seoul National University, 2002;
-// the relation to Chong and Gortler 2004: same x, y and w, another depth row. Departures: spots as well as suns; w is NOT
-// always positive; the depth row is scaled, since as printed everything projected nearer than one unit is lost to the far
-// plane, and measured from the plane, so that it spans the heights of a scene instead of its extent.
+// the relation to Chong and Gortler 2004: same x, y and w, another depth row. Departures: spots as well as suns; w is
+// NOT always positive; the depth row is scaled, since as printed everything projected nearer than one unit is lost to
+// the far plane, and measured from the plane, so that it spans the heights of a scene instead of its extent.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -47,18 +47,18 @@ template <class T>
     return {unit, -glm::dot(unit, point)};
 }
 
-// The thesis' choice: parallel to the ground, at the middle height of what is to receive shadows. An empty box gives the
-// ground through the origin.
+// The thesis' choice: parallel to the ground, at the middle height of what is to receive shadows. An empty box gives
+// the ground through the origin.
 template <class T>
 [[nodiscard]] inline ShadowPlane<T> mean_height_plane(Aabb<T> const& receivers, Vec3<T> const& ground_normal) noexcept {
     Vec3<T> const middle = is_empty(receivers) ? Vec3<T>(T(0)) : receivers.lo / T(2) + receivers.hi / T(2);
     return plane_through(middle, ground_normal);
 }
 
-// Moves points along the rays of the light onto the plane: Pi = I - l pi^T / (pi . l), so that Pi Pi = Pi and Pi l = 0. Signs
-// and lengths of the plane and of `homogeneous_light` do not matter, and w stays 1 for a sun; for a spot it is the point's
-// height below the light in heights of the light. The identity where the plane contains the light, or an input is not
-// finite.
+// Moves points along the rays of the light onto the plane: Pi = I - l pi^T / (pi . l), so that Pi Pi = Pi and Pi l = 0.
+// Signs and lengths of the plane and of `homogeneous_light` do not matter, and w stays 1 for a sun; for a spot it is
+// the point's height below the light in heights of the light. The identity where the plane contains the light, or an
+// input is not finite.
 template <class T>
 [[nodiscard]] inline Mat4<T> plane_projection(ShadowPlane<T> const& plane, Vec4<T> const& homogeneous_light) noexcept {
     if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(homogeneous_light))
@@ -79,18 +79,20 @@ struct VdsmOptions {
     int map_size = 1024;
     T margin_texels = T(2);   // of the map kept free on each side, for the filter
     bool crop = true;         // zoom in on what the receivers need; false: the whole screen, as it is
-    T w_min = T(0);           // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: the view's near
-    T reach = T(2);           // how far beyond the screen the map goes, in half screens: receivers off the plane project
-                              // there. Those beyond are not the map's. >= 1
-    T least_sine = T(0.05);   // of the angle between the plane and a sun, or an orthographic view: below it, invalid_plane
+    T w_min = T(0);           // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
+    T reach = T(2);           // how far beyond the screen the map goes, in half screens: receivers off the plane may
+                              // project there; those beyond are not the map's. >= 1
+    T least_sine = T(0.05);   // of the angle between the plane and a sun, or an orthographic view: below it,
+                              // invalid_plane. >= 1e-3
 };
 
 // One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half
-// screens out: near the eye's own depth a single such point would take the whole map. Everything on the plane and in view
-// is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
+// screens out: near the eye's own depth a single such point would take the whole map. Everything on the plane and in
+// view is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
 //
 // invalid_plane, not visible: the plane has no normal, contains the light (least_sine; spots: 1e-4 of z_far), or
-// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters in the last 1/1024 of the way to a spot are cut.
+// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters
+// in the last 1/1024 of the way to a spot are cut.
 template <class T>
 [[nodiscard]] inline ShadowMap<T> view_dependent_map(ViewVolume<T> const& view, Light<T> const& light,
                                                      ShadowPlane<T> const& plane, Aabb<T> const& casters,
@@ -108,7 +110,9 @@ template <class T>
     Normalized<T> const normal = safe_normalize(plane.normal);
     if (!normal.ok) map.faults |= Fault::invalid_plane;
     if (!normal.ok || in.stop) return map;
-    if (!(options.reach >= T(1)) || options.w_min < T(0)) map.faults |= Fault::clamped_option;
+    T const least_sine = glm::max(options.least_sine, T(1e-3));
+    if (!(options.reach >= T(1)) || options.w_min < T(0) || least_sine != options.least_sine)
+        map.faults |= Fault::clamped_option;
 
     // All relative to the eye: there the plane is known to the last bit of the eye's height.
     ViewVolume<T> eye = in.view;
@@ -118,14 +122,17 @@ template <class T>
     bool const sun = lamp.kind == LightKind::directional;
     Vec4<T> const source = sun ? Vec4<T>(lamp.direction, T(0)) : Vec4<T>(origin - lamp.position, T(-1));
     Vec4<T> const pi(normal.direction, glm::dot(normal.direction, origin) + plane.offset / normal.length);
+    if (!(std::abs(pi.w) <= T(1e12))) {
+        map.faults |= Fault::invalid_plane;
+        return map;
+    }
     T const height_of_light = glm::dot(pi, source);
     T const least_height = T(1e-4) * eye.z_far;
     // An orthographic eye lies at infinity, against its viewing direction.
     bool const flat = eye.kind == ViewKind::orthographic;
     T const height_of_eye = flat ? glm::dot(normal.direction, eye.pose.forward) : pi.w;
-    if (!(std::abs(height_of_eye) >= (flat ? options.least_sine : least_height)) || height_of_eye == T(0) ||
-        !(std::abs(height_of_light) >= (sun ? options.least_sine : least_height)) ||
-        height_of_light == T(0) || !(std::abs(pi.w) <= T(1e12))) {
+    if (!(std::abs(height_of_eye) >= (flat ? least_sine : least_height)) ||
+        !(std::abs(height_of_light) >= (sun ? least_sine : least_height))) {
         map.faults |= Fault::invalid_plane;
         return map;
     }
@@ -147,7 +154,7 @@ template <class T>
         rows.w_min = eye.z_far / T(1 << 20);
         map.faults |= Fault::near_clamped;
     }
-    if (options.w_min > T(0)) rows.w_min = options.w_min;
+    if (options.w_min > T(0)) rows.w_min = glm::max(options.w_min, rows.w_min / T(1024));
     rows.least_width = T(2) / T(options.map_size);
     rows.crop = options.crop;
 

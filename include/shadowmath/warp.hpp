@@ -7,12 +7,14 @@
 //        eye . . . . y_near ->  \__________/           differ in a, the distance of the centre behind the near end:
 //                                                      a -> infinity is the uniform map, a = z_near Stamminger's.
 //
-// Use it for one map and a low sun or a level view. Where light and view are parallel nothing can be gained, and the warp
-// fades to a uniform map. Like every map that depends on the view it shimmers when the camera moves; cascades do not.
+// Use it for one map and a low sun or a level view. Where light and view are parallel nothing can be gained, and the
+// warp fades to a uniform map. Like every map that depends on the view it shimmers when the camera moves; cascades do
+// not.
 //
-// Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in Wimmer, Scherzer,
-// Purgathofer 2004 (LiSPSM), with Scherzer's general tilt. Departures from the weblog: the whole of the map is filled, depth
-// is not clipped, the centre of projection is free of the camera, and the strength follows the angle of the light.
+// Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in Wimmer,
+// Scherzer, Purgathofer 2004 (LiSPSM), with Scherzer's general tilt. Departures from the weblog: the whole of the map
+// is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
+// of the light.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -31,10 +33,10 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// The warp exactly as the weblog printed it, for points of a light's NDC whose y runs along the view: rows of D3D's projection
-// with y in the place of z. With w and h the width and height of the near end: y = z_near goes to 0, not to -1, and y =
-// z_far to 1, so half of the map stays empty; depth above h / 2 at the near end leaves the map; y <= 0 is behind the
-// centre. Here to be compared with. The identity unless 0 < z_near < z_far, w > 0 and h > 0, all finite.
+// The warp exactly as the weblog printed it, for points of a light's NDC whose y runs along the view: rows of D3D's
+// projection with y in the place of z. With w and h the width and height of the near end: y = z_near goes to 0, not to
+// -1, and y = z_far to 1, so half of the map stays empty; depth above h / 2 at the near end leaves the map; y <= 0 is
+// behind the centre. Here to be compared with. The identity unless 0 < z_near < z_far, w > 0 and h > 0, all finite.
 template <class T>
 [[nodiscard]] inline Mat4<T> printed_simple_warp(T const& w, T const& h, T const& z_near, T const& z_far) noexcept {
     bool const numbers = all_finite(&w, 1) && all_finite(&h, 1) && all_finite(&z_near, 1) && all_finite(&z_far, 1);
@@ -59,9 +61,9 @@ template <class T>
     return all_finite(warp) ? warp : Mat4<T>(T(1));
 }
 
-// 1 / a for the a that makes the aliasing along y least: equal at both ends. `z_near`: eye depth of the near end, metres, > 0.
-// `length`: of the body along y, metres, >= 0. `sine`: of the angle between view and light, [0, 1]. With an overhead light
-// a = n + sqrt(n f). Goes to 0 with the sine: the reciprocal of a is what can fade.
+// 1 / a for the a that makes the aliasing along y least: equal at both ends. `z_near`: eye depth of the near end,
+// metres, > 0. `length`: of the body along y, metres, >= 0. `sine`: of the angle between view and light, [0, 1]. With
+// an overhead light a = n + sqrt(n f). Goes to 0 with the sine: the reciprocal of a is what can fade.
 template <class T>
 [[nodiscard]] inline T optimal_inverse_centre(T z_near, T length, T sine) noexcept {
     return sine / (z_near * (T(1) + std::sqrt(T(1) + length * sine / z_near)));
@@ -88,9 +90,10 @@ struct WarpAxes {
     T fade = T(0);        // of the warp: 1 from 30 degrees on, 0 below 6
 };
 
-// Light space with y along the view. As the view turns into the light its direction there fades, and what is up in the picture
-// takes over: for a camera that looks down on its world, y stays where it was. No rule is continuous everywhere; this one
-// turns y about only in views tilted some 6 degrees past the light, where there is no warp left to notice it.
+// Light space with y along the view. As the view turns into the light its direction there fades, and what is up in the
+// picture takes over: for a camera that looks down on its world, y stays where it was. No rule is continuous
+// everywhere; this one turns y about only in views tilted some 6 degrees past the light, where there is no warp left to
+// notice it.
 template <class T>
 [[nodiscard]] inline WarpAxes<T> warp_axes(Pose<T> const& eye, Vec3<T> const& travel) noexcept {
     auto const across = [&travel](Vec3<T> const& v) { return v - travel * glm::dot(travel, v); };
@@ -118,9 +121,9 @@ struct WarpOptions {
     T strength = T(1);       // [0, 1]: 1 the least aliasing along the view, 0 the uniform map
 };
 
-// One warped map of what the slice sees of the receivers, and of every caster above it; it fills the map up to the margin.
-// w > 0 on all of them: w is 1 at the near end, grows from there, and is the same all along a light ray. Orthographic
-// views are served uniformly, as they have no perspective to undo. Spots get the plain fit_spot.
+// One warped map of what the slice sees of the receivers, and of every caster above it; it fills the map up to the
+// margin. w > 0 on all of them: w is 1 at the near end, grows from there, and is the same all along a light ray.
+// Orthographic views are served uniformly, as they have no perspective to undo. Spots get the plain fit_spot.
 // warp_faded tells that nothing of the warp was left; it is no fault, the map is right.
 template <class T>
 [[nodiscard]] inline ShadowMap<T> simple_perspective_map(ViewVolume<T> const& slice, Light<T> const& light,

@@ -21,10 +21,12 @@ struct Measured {
 
 template <class T>
 [[nodiscard]] Measured measured(ShadowMap<T> const& map, Vec3<T> const& world, int operations) {
-    Mat4<long double> const canonical = canonical_from_clip<long double>(map.clip) * Mat4<long double>(map.clip_from_world);
+    Mat4<long double> const canonical =
+        canonical_from_clip<long double>(map.clip) * Mat4<long double>(map.clip_from_world);
     Vec4<long double> const point(Vec3<long double>(world), 1);
     Measured m{canonical * point, {}};
-    long double const unit = static_cast<long double>(operations) * std::numeric_limits<T>::epsilon() * glm::length(point);
+    long double const unit =
+        static_cast<long double>(operations) * std::numeric_limits<T>::epsilon() * glm::length(point);
     for (int r = 0; r < 4; ++r) m.noise[r] = unit * glm::length(row(canonical, r));
     return m;
 }

@@ -11,7 +11,8 @@
 
 namespace shadowmath::laws {
 
-// No direction in which the body ends before the point does; `slack` metres. The six axes and eight diagonals are asked.
+// No direction in which the body ends before the point does; `slack` metres. The six axes and eight diagonals are
+// asked.
 template <class T>
 [[nodiscard]] bool may_contain(ConvexBody<T> const& body, Vec3<T> const& point, T slack) {
     for (int x = -1; x <= 1; ++x)
@@ -29,9 +30,8 @@ template <class T>
 template <class T>
 [[nodiscard]] bool lies_inside(ConvexBody<T> const& body, Vec4<T> const& half_space, T slack) {
     bool inside = true;
-    for_each_vertex(body, [&](Vec3<T> const& v) {
-        inside = inside && glm::dot(Vec3<T>(half_space), v) + half_space.w >= -slack;
-    });
+    for_each_vertex(
+        body, [&](Vec3<T> const& v) { inside = inside && glm::dot(Vec3<T>(half_space), v) + half_space.w >= -slack; });
     return inside;
 }
 

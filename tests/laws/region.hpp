@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What region.hpp promises: lo and hi land on the map's corners and nothing else changes, regions compose, and bounds of a
-// body lose no point in front.
+// What region.hpp promises: lo and hi land on the map's corners and nothing else changes, regions compose, and bounds
+// of a body lose no point in front.
 #pragma once
 
 #include "tests/laws/shadow_map.hpp"
@@ -33,8 +33,9 @@ template <class T>
     return lands(region.lo, -1) && lands(region.hi, 1);
 }
 
-// A point of the body at `weight` (convex weights of its eight corners) is inside the bounds, if its w is w_min or more.
-// 32 roundings: a product of four, an interpolation, a quotient, each over numbers as large as |row| |corner| / w.
+// A point of the body at `weight` (convex weights of its eight corners) is inside the bounds, if its w is w_min or
+// more. 32 roundings: a product of four, an interpolation, a quotient, each over numbers as large as |row| |corner| /
+// w.
 template <class T>
 [[nodiscard]] bool loses_no_point_in_front(Mat4<T> const& clip_from_world, std::array<Vec3<T>, 8> const& corners,
                                            T w_min, std::array<T, 8> const& weight) {

@@ -124,7 +124,8 @@ TYPED_TEST(VdsmProperty, IsFiniteAndCalmForAnyInput) {
             options.least_sine = values[3];
         }
         ClipSpace const clip = *clip_space();
-        auto const map = watched([&] { return view_dependent_map(view, light, plane, casters, receivers, options, clip); });
+        auto const map =
+            watched([&] { return view_dependent_map(view, light, plane, casters, receivers, options, clip); });
         RC_ASSERT(laws::harmless(map.result));
         RC_ASSERT(map.calm());
         RC_ASSERT(watched([&] { return plane_projection(plane, Vec4<T>(place, range)); }).calm());

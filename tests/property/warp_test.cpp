@@ -35,7 +35,8 @@ TYPED_TEST(WarpProperty, ServesWhatTheViewSeesAndTheCastersBetweenItAndTheLight)
         Aabb<T> const casters = merge(scene.receivers, caster);
         WarpOptions<T> options;
         options.strength = strength;
-        ShadowMap<T> const map = simple_perspective_map(scene.view, light, casters, scene.receivers, options, scene.clip);
+        ShadowMap<T> const map =
+            simple_perspective_map(scene.view, light, casters, scene.receivers, options, scene.clip);
         RC_ASSERT(laws::harmless(map));
         RC_ASSERT(map.visible);
         RC_ASSERT(laws::is_map_of(map.clip_from_world, light, scene.clip));
@@ -64,7 +65,8 @@ TYPED_TEST(WarpProperty, IsFiniteAndCalmForAnyInput) {
             options.strength = strength;
         }
         ClipSpace const clip = *clip_space();
-        auto const map = watched([&] { return simple_perspective_map(view, light, casters, receivers, options, clip); });
+        auto const map =
+            watched([&] { return simple_perspective_map(view, light, casters, receivers, options, clip); });
         RC_ASSERT(laws::harmless(map.result));
         RC_ASSERT(map.calm());
     }));

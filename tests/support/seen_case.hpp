@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A view, a point that it sees, boxes around that point and between it and a light: what techniques that fit a map to the
-// view are tried on. Boxes drawn without regard to the view would be out of sight in nearly every case.
+// A view, a point that it sees, boxes around that point and between it and a light: what techniques that fit a map to
+// the view are tried on. Boxes drawn without regard to the view would be out of sight in nearly every case.
 #pragma once
 
 #include "tests/support/gen.hpp"
@@ -13,7 +13,7 @@ namespace shadowmath::test {
 template <class T>
 struct SeenCase {
     ViewVolume<T> view;
-    Vec3<T> point;      // world, in view, inside `receivers`
+    Vec3<T> point;  // world, in view, inside `receivers`
     Aabb<T> receivers;
     ClipSpace clip;
 };

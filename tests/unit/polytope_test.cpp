@@ -81,8 +81,8 @@ TEST(Polytope, OfAFlatBoxSurvivesBeingCut) {
 
 TEST(Polytope, OfABoxWithoutEndIsTheViewItself) {
     float const most = std::numeric_limits<float>::max();
-    ViewVolume<float> const view = perspective_view(pose_looking(glm::vec3(5, 6, 7), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0)),
-                                                    1.0f, 1.5f, 0.1f, 100.0f);
+    ViewVolume<float> const view = perspective_view(
+        pose_looking(glm::vec3(5, 6, 7), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
     ConvexBody<float> const seen = visible_body(view, Aabb<float>{glm::vec3(-most), glm::vec3(most)});
     for (glm::vec3 const& corner : corners(view))
         EXPECT_TRUE(laws::may_contain(seen, corner - view.pose.position, 1e-3f));

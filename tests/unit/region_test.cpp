@@ -120,8 +120,8 @@ TEST(ProjectedBounds, CutTheBodyAtWMinBeforeTheyDivide) {
 }
 
 TEST(ProjectedBounds, OfABoxWithoutEndAreFinite) {
-    ViewVolume<float> const view =
-        perspective_view(pose_looking(glm::vec3(3, 2, 1), glm::vec3(1, 2, -1), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
+    ViewVolume<float> const view = perspective_view(
+        pose_looking(glm::vec3(3, 2, 1), glm::vec3(1, 2, -1), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
     float const most = std::numeric_limits<float>::max();
     Aabb<float> const all{glm::vec3(-most), glm::vec3(most)};
     for (float const w_min : {0.1f, 0.0f, -1.0f}) {

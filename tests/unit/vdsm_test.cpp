@@ -94,7 +94,8 @@ TEST(Vdsm, OnThePlaneTheMapIsTheScreen) {
     VdsmOptions<double> options;
     options.crop = false;
     options.margin_texels = 0.0;
-    for (Light<double> const& light : {morning, directional(V3(-3, -1, -2)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.2, 400.0)}) {
+    for (Light<double> const& light :
+         {morning, directional(V3(-3, -1, -2)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.2, 400.0)}) {
         ViewVolume<double> const view = walker();
         ShadowMap<double> const map = view_dependent_map(view, light, ground, town, town, options, gl_zero_to_one_clip);
         ASSERT_TRUE(map.visible);
@@ -116,7 +117,8 @@ TEST(Vdsm, TexelsOnThePlaneHaveTheSameSizeInPixelsFromNearToFar) {
     ASSERT_TRUE(map.visible);
     double least = inf, most = 0.0;
     for (V3 const& p : ground_in_view(view)) {
-        double const here = area(footprint(clip_from_world(view, gl_clip), V2(1600, 1000), map.clip_from_world, 1024.0, p, V3(0, 1, 0)));
+        double const here = area(
+            footprint(clip_from_world(view, gl_clip), V2(1600, 1000), map.clip_from_world, 1024.0, p, V3(0, 1, 0)));
         least = std::min(least, here);
         most = std::max(most, here);
     }
@@ -144,8 +146,10 @@ TEST(Vdsm, TexelsOffThePlaneHaveTheSizeOfTheClosedForm) {
 }
 
 TEST(Vdsm, ObeysTheLawOfShadowMapsInEveryConvention) {
-    for (Light<double> const& light : {morning, directional(V3(0, -0.5, 1)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.2, 400.0)})
-        for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, d3d_clip, reversed(vulkan_clip), reversed(d3d_clip)}) {
+    for (Light<double> const& light :
+         {morning, directional(V3(0, -0.5, 1)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.2, 400.0)})
+        for (ClipSpace const clip :
+             {gl_clip, gl_zero_to_one_clip, vulkan_clip, d3d_clip, reversed(vulkan_clip), reversed(d3d_clip)}) {
             ShadowMap<double> const map = view_dependent_map(walker(), light, ground, town, town, {}, clip);
             ASSERT_TRUE(map.visible);
             EXPECT_TRUE(laws::is_map_of(map.clip_from_world, light, clip));
@@ -153,11 +157,12 @@ TEST(Vdsm, ObeysTheLawOfShadowMapsInEveryConvention) {
 }
 
 TEST(Vdsm, HoldsThePlaneInViewWithItsMarginAndTheCastersAboveIt) {
-    for (Light<double> const& light : {morning, directional(V3(0, -0.5, 1)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.45, 400.0)})
+    for (Light<double> const& light :
+         {morning, directional(V3(0, -0.5, 1)), spot(V3(5, 30, -20), V3(0, -1, 0), 1.45, 400.0)})
         for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, reversed(d3d_clip)}) {
             ViewVolume<double> const view = walker();
             VdsmOptions<double> const options;
-            ShadowMap<double> const map = view_dependent_map(view, light, ground, town, town, options, clip);
+            ShadowMap<double> const map = view_dependent_map(view, light, ground, town, flat_world, options, clip);
             ASSERT_TRUE(map.visible);
             double const margin = options.margin_texels * 2.0 / options.map_size;
             bool const sun = light.kind == LightKind::directional;
@@ -179,11 +184,27 @@ TEST(Vdsm, TellsReceiversThatProjectBehindTheEye) {
     // A wall ahead, lit from the front: the thesis' "w > 0 always" does not hold.
     ViewVolume<double> const view =
         perspective_view(pose_looking(V3(0, 1.7, 0), V3(0, 0, -1), V3(0, 1, 0)), 1.2, 1.0, 0.1, 200.0);
-    ShadowMap<double> const map = view_dependent_map(view, directional(V3(0, -0.5, 1)), ground, town, town, {}, gl_clip);
+    ShadowMap<double> const map =
+        view_dependent_map(view, directional(V3(0, -0.5, 1)), ground, town, town, {}, gl_clip);
     ASSERT_TRUE(map.visible);
     // The ray through height h meets the ground 2 h nearer: at the eye for h = 5 on a wall 10 m ahead.
     for (double height = 0.0; height < 4.9; height += 0.1) EXPECT_TRUE(receiver_valid(map, V3(0, height, -10)));
     for (double height = 5.0; height < 12.0; height += 0.1) EXPECT_FALSE(receiver_valid(map, V3(0, height, -10)));
+}
+
+TEST(Vdsm, SpendsNoDepthOnReceiversBelowItsWMin) {
+    // The wall's receivers come as near to w = 0 as w_min lets them, and the least w scales the depth of all.
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0, 1.7, 0), V3(0, 0, -1), V3(0, 1, 0)), 1.2, 1.0, 0.1, 200.0);
+    auto const depth_scale = [&](double w_min) {
+        VdsmOptions<double> options;
+        options.w_min = w_min;
+        ShadowMap<double> const map =
+            view_dependent_map(view, directional(V3(0, -0.5, 1)), ground, town, town, options, gl_zero_to_one_clip);
+        EXPECT_EQ(map.w_min, w_min);
+        return glm::length(V3(row(map.clip_from_world, 2)));
+    };
+    EXPECT_GT(depth_scale(4.0), 3.0 * depth_scale(0.1));
 }
 
 TEST(Vdsm, GivesFloatDepthBuffersTheirPrecisionBackInBothOrders) {
@@ -224,10 +245,12 @@ TEST(Vdsm, HasNothingToShowWithoutCastersOrReceiversAndSaysNoFault) {
 }
 
 TEST(Vdsm, MendsBoxesWithoutEndAViewWithoutEndAndANearDistanceOfZero) {
-    Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()), glm::vec3(std::numeric_limits<float>::max())};
+    Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()),
+                              glm::vec3(std::numeric_limits<float>::max())};
     ShadowPlane<float> const floor{glm::vec3(0, 1, 0), 0.0f};
     Light<float> const sun = directional(glm::vec3(0.4f, -1.0f, 0.3f));
-    ViewVolume<float> view = perspective_view(pose_looking(glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
+    ViewVolume<float> view = perspective_view(
+        pose_looking(glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
     ShadowMap<float> const whole = view_dependent_map(view, sun, floor, endless, endless, {}, gl_clip);
     EXPECT_TRUE(whole.visible);
     EXPECT_FALSE(whole.faults.any());
@@ -248,21 +271,25 @@ TEST(Vdsm, MendsBoxesWithoutEndAViewWithoutEndAndANearDistanceOfZero) {
 TEST(Vdsm, RefusesMapsWithoutRoomAndBadOptions) {
     VdsmOptions<double> options;
     options.map_size = 6;
-    EXPECT_TRUE(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::map_too_small));
+    EXPECT_TRUE(
+        view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::map_too_small));
     options.map_size = 1024;
     options.margin_texels = 1e9;
-    EXPECT_TRUE(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::map_too_small));
+    EXPECT_TRUE(
+        view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::map_too_small));
     options.margin_texels = 2.0;
     options.reach = 0.0;
     ShadowMap<double> const clamped = view_dependent_map(walker(), morning, ground, town, town, options, gl_clip);
     EXPECT_TRUE(clamped.visible);
     EXPECT_TRUE(clamped.faults.has(Fault::clamped_option));
     options.reach = nan_;
-    EXPECT_TRUE(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::not_finite));
+    EXPECT_TRUE(
+        view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::not_finite));
 }
 
 TEST(Vdsm, ServesOrthographicEyes) {
-    ViewVolume<double> const view = orthographic_view(pose_looking(V3(0, 50, 0), V3(0.1, -1, -0.3), V3(0, 1, 0)), -20.0, 20.0, -20.0, 20.0, 1.0, 100.0);
+    ViewVolume<double> const view = orthographic_view(pose_looking(V3(0, 50, 0), V3(0.1, -1, -0.3), V3(0, 1, 0)), -20.0,
+                                                      20.0, -20.0, 20.0, 1.0, 100.0);
     ShadowMap<double> const map = view_dependent_map(view, morning, ground, town, flat_world, {}, gl_clip);
     ASSERT_TRUE(map.visible);
     EXPECT_TRUE(laws::is_map_of(map.clip_from_world, morning, gl_clip));

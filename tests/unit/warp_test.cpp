@@ -42,7 +42,9 @@ double error_along(ShadowMap<double> const& map, double z) {
 }
 
 // Eye depth at which the lower edge of the level view meets the ground.
-double first_ground(ViewVolume<double> const& view) { return view.pose.position.y / -view.bottom; }
+double first_ground(ViewVolume<double> const& view) {
+    return view.pose.position.y / -view.bottom;
+}
 
 }  // namespace
 
@@ -61,10 +63,8 @@ TEST(PrintedWarp, IsTheTransposeOfTheRowsInTheListing) {
     double const w = 0.5, h = 1.5, zn = 0.2, zf = 1.0;
     glm::dmat4 const warp = printed_simple_warp(w, h, zn, zf);
     // A row of the listing is a column here.
-    double const listing[4][4] = {{2 * zn / w, 0, 0, 0},
-                                  {0, zf / (zf - zn), 0, 1},
-                                  {0, 0, 2 * zn / h, 0},
-                                  {0, zn * zf / (zn - zf), 0, 0}};
+    double const listing[4][4] = {
+        {2 * zn / w, 0, 0, 0}, {0, zf / (zf - zn), 0, 1}, {0, 0, 2 * zn / h, 0}, {0, zn * zf / (zn - zf), 0, 0}};
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) EXPECT_NEAR(warp[c][r], listing[c][r], 1e-15);
 }
@@ -124,8 +124,9 @@ TEST(SimplePerspectiveMap, HasTheLeastWorstErrorTheSameAtBothEnds) {
         EXPECT_NEAR(error_along(map, n), std::sqrt(alpha) - 1 / std::sqrt(alpha), 1e-9 * alpha);
         EXPECT_NEAR(error_along(map, z_far), std::sqrt(alpha) - 1 / std::sqrt(alpha), 1e-9 * alpha);
         for (double z = n; z < z_far; z *= 1.1)
-            EXPECT_NEAR(error_along(map, z) / closed_form::warped_along(z, n, z_far, closed_form::best_centre(n, z_far)),
-                        1.0, 1e-9);
+            EXPECT_NEAR(
+                error_along(map, z) / closed_form::warped_along(z, n, z_far, closed_form::best_centre(n, z_far)), 1.0,
+                1e-9);
     }
 }
 
@@ -178,7 +179,8 @@ TEST(SimplePerspectiveMap, MovesLittleWhenTheCameraTurnsLittle) {
     ShadowMap<double> before;
     for (double pitch = 0.9; pitch < 1.57; pitch += step) {
         ViewVolume<double> view = level_view();
-        view.pose = pose_looking(V3(3, 30, 2), V3(0.2 * std::cos(pitch), -std::sin(pitch), -std::cos(pitch)), V3(0, 1, 0));
+        view.pose =
+            pose_looking(V3(3, 30, 2), V3(0.2 * std::cos(pitch), -std::sin(pitch), -std::cos(pitch)), V3(0, 1, 0));
         ShadowMap<double> const map = simple_perspective_map(view, overhead, town, town, {}, gl_clip);
         ASSERT_TRUE(map.visible);
         if (before.visible) worst = std::max(worst, laws::moved_texels(before, map, V3(3, 0, -4), size));
@@ -228,6 +230,22 @@ TEST(SimplePerspectiveMap, HoldsEveryReceiverWithItsMarginAndItsCastersInEveryCo
         }
 }
 
+TEST(SimplePerspectiveMap, SpendsNoDepthOnCastersWhoseLightPassesTheMapBy) {
+    // Casters up to 40 m: above the view, or on one side of it, where they shadow nothing that is seen.
+    ViewVolume<double> const view = level_view(50.0);
+    Aabb<double> const low{V3(-50, 0, -50), V3(50, 3, 0)};
+    auto const depth_of_ground = [&](Light<double> const& light, Aabb<double> const& casters) {
+        ShadowMap<double> const map = simple_perspective_map(view, light, casters, low, {}, gl_zero_to_one_clip);
+        return 1.0 / glm::length(V3(row(map.clip_from_world, 2)));
+    };
+    double const near_only = depth_of_ground(overhead, low);
+    EXPECT_GT(depth_of_ground(overhead, Aabb<double>{V3(-50, 0, -50), V3(50, 40, 0)}), 5.0 * near_only);
+    for (V3 const& aside : {V3(200, 0, 0), V3(-200, 0, 0), V3(0, 0, 200), V3(0, 0, -200)}) {
+        Aabb<double> const beside{low.lo + aside, low.hi + aside + V3(0, 37, 0)};
+        EXPECT_FALSE(simple_perspective_map(view, overhead, beside, low, {}, gl_clip).visible);
+    }
+}
+
 TEST(SimplePerspectiveMap, ServesOrthographicViewsUniformly) {
     ViewVolume<double> const view =
         orthographic_view(pose_looking(V3(0, 50, 0), V3(1, -1, 0), V3(0, 1, 0)), -20.0, 20.0, -20.0, 20.0, 1.0, 200.0);
@@ -241,7 +259,8 @@ TEST(SimplePerspectiveMap, GivesSpotsTheirPlainFit) {
     Light<double> const lamp = spot(V3(0, 10, -12), V3(0, -1, 0), 0.8, 30.0);
     WarpOptions<double> const options;
     ShadowMap<double> const map = simple_perspective_map(level_view(), lamp, town, town, options, gl_clip);
-    ShadowMap<double> const plain = fit_spot(level_view(), lamp, town, town, options.map_size, options.margin_texels, gl_clip);
+    ShadowMap<double> const plain =
+        fit_spot(level_view(), lamp, town, town, options.map_size, options.margin_texels, gl_clip);
     EXPECT_TRUE(map.visible);
     EXPECT_FALSE(map.faults.any());
     EXPECT_EQ(map.clip_from_world, plain.clip_from_world);
@@ -261,7 +280,8 @@ TEST(SimplePerspectiveMap, HasNothingToShowWithoutCastersOrReceiversAndSaysNoFau
 TEST(SimplePerspectiveMap, ServesAPointALineAndAPlane) {
     for (V3 const& extent : {V3(0), V3(4, 0, 0), V3(0, 4, 0), V3(4, 0, 4), V3(0, 4, 4)}) {
         Aabb<double> const body{V3(1, 0.5, -12), V3(1, 0.5, -12) + extent};
-        ShadowMap<double> const map = simple_perspective_map(level_view(), directional(V3(1, -2, 0)), body, body, {}, gl_clip);
+        ShadowMap<double> const map =
+            simple_perspective_map(level_view(), directional(V3(1, -2, 0)), body, body, {}, gl_clip);
         EXPECT_TRUE(map.visible);
         EXPECT_TRUE(laws::serves(map, body.lo, 0.0));
         EXPECT_TRUE(laws::serves(map, body.hi, 0.0));
@@ -269,7 +289,8 @@ TEST(SimplePerspectiveMap, ServesAPointALineAndAPlane) {
 }
 
 TEST(SimplePerspectiveMap, MendsBoxesWithoutEndAndAViewWithoutEnd) {
-    Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()), glm::vec3(std::numeric_limits<float>::max())};
+    Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()),
+                              glm::vec3(std::numeric_limits<float>::max())};
     ViewVolume<float> view = perspective_view(
         pose_looking(glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
     Light<float> const sun = directional(glm::vec3(0.4f, -1.0f, 0.3f));
@@ -287,16 +308,18 @@ TEST(SimplePerspectiveMap, MendsBoxesWithoutEndAndAViewWithoutEnd) {
 
 TEST(SimplePerspectiveMap, SaysWhenTheScalarIsTooSmallForThePlace) {
     Vec3<float> const away(3e6f, 0, 0);
-    ViewVolume<float> const view = perspective_view(
-        pose_looking(away + glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 50.0f);
+    ViewVolume<float> const view =
+        perspective_view(pose_looking(away + glm::vec3(0, 1.7f, 0), glm::vec3(0, -0.1f, -1), glm::vec3(0, 1, 0)), 1.0f,
+                         1.6f, 0.1f, 50.0f);
     Aabb<float> const town_box{away + glm::vec3(-300, 0, -300), away + glm::vec3(300, 12, 300)};
     ShadowMap<float> const map =
         simple_perspective_map(view, directional(glm::vec3(0.4f, -1.0f, 0.3f)), town_box, town_box, {}, gl_clip);
     EXPECT_TRUE(map.faults.has(Fault::precision_lost));
-    ViewVolume<double> const fine = perspective_view(
-        pose_looking(V3(away) + V3(0, 1.7, 0), V3(0, -0.1, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 50.0);
+    ViewVolume<double> const fine =
+        perspective_view(pose_looking(V3(away) + V3(0, 1.7, 0), V3(0, -0.1, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 50.0);
     Aabb<double> const fine_box{V3(town_box.lo), V3(town_box.hi)};
-    EXPECT_FALSE(simple_perspective_map(fine, directional(V3(0.4, -1, 0.3)), fine_box, fine_box, {}, gl_clip).faults.any());
+    EXPECT_FALSE(
+        simple_perspective_map(fine, directional(V3(0.4, -1, 0.3)), fine_box, fine_box, {}, gl_clip).faults.any());
 }
 
 TEST(SimplePerspectiveMap, ClampsItsStrengthAndRefusesBadMaps) {
@@ -304,10 +327,13 @@ TEST(SimplePerspectiveMap, ClampsItsStrengthAndRefusesBadMaps) {
     options.strength = 7.0;
     ShadowMap<double> const clamped = simple_perspective_map(level_view(), overhead, town, town, options, gl_clip);
     EXPECT_TRUE(clamped.faults.has(Fault::clamped_option));
-    EXPECT_EQ(clamped.clip_from_world, simple_perspective_map(level_view(), overhead, town, town, {}, gl_clip).clip_from_world);
+    EXPECT_EQ(clamped.clip_from_world,
+              simple_perspective_map(level_view(), overhead, town, town, {}, gl_clip).clip_from_world);
     options.strength = nan_;
-    EXPECT_TRUE(simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::not_finite));
+    EXPECT_TRUE(
+        simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::not_finite));
     options = {};
     options.map_size = 2;
-    EXPECT_TRUE(simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::map_too_small));
+    EXPECT_TRUE(
+        simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::map_too_small));
 }

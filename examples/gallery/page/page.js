@@ -26,7 +26,7 @@
   };
   const number = x => x === 0 ? "0" : x >= 100 ? x.toFixed(0) : x >= 10 ? x.toFixed(1) : x.toFixed(2);
   const mean = values => values.reduce((sum, x) => sum + x, 0) / Math.max(values.length, 1);
-  const word = name => name.charAt(0).toUpperCase() + name.slice(1).replaceAll("-", " ");
+  const word = name => name.charAt(0).toUpperCase() + name.slice(1).replace(/[-_]+/g, " ");
   const technique = id => techniques.find(t => t.id === id);
   const folder = (scene, view) => ["images", scene, view].map(encodeURIComponent).join("/") + "/";
   const matching = wanted => records.filter(r => Object.entries(wanted).every(([key, value]) => r[key] === value));
@@ -75,9 +75,8 @@
     const highest = Math.max(1e-6, ...rows.flatMap(row => row.scenes));
     const best = scenes.map((_, i) => Math.min(...rows.map(row => row.scenes[i] ?? Infinity)));
     const cell = (row, value, i) => value === null ? element("td", {}, "–") :
-      element("td", { class: "cell" + (value === best[i] ? " best" : "") },
-        element("a", { href: `#scene-${scenes[i].name}`, style: `--heat:${(0.5 * Math.sqrt(value / highest)).toFixed(3)}`,
-                       onclick: () => shows.get(scenes[i].name).choose(row.t.id) }, percent(value)));
+      element("td", { class: "cell" + (value === best[i] ? " best" : ""), style: `--heat:${(0.5 * Math.sqrt(value / highest)).toFixed(3)}` },
+        element("a", { href: `#scene-${scenes[i].name}`, onclick: () => shows.get(scenes[i].name).choose(row.t.id) }, percent(value)));
     byId("summary-table").append(
       element("caption", { hidden: true }, "Mis-shadowed pixels off edges by technique and scene"),
       element("thead", {}, element("tr", {}, element("th", { class: "left", scope: "col" }, "Technique"),
@@ -92,7 +91,7 @@
   const swatch = (colour, text) =>
     element("span", {}, element("span", { class: "swatch", style: `background:${colour}`, "aria-hidden": "true" }), text);
   const legends = {
-    difference: () => [swatch("#f2412a", "false shadow"), swatch("#2f96ff", "false light"), swatch("#8c6a64", "at true edges")],
+    difference: () => [swatch("#f2412a", "false shadow"), swatch("#2f96ff", "false light"), swatch("#8c6a64", "edge")],
     overlay: record => Array.from({ length: record.maps }, (_, i) => swatch(palette.maps[i], String(i + 1))),
     footprint: () => [element("span", { class: "scale" }, "¼", element("i", { style: `background:linear-gradient(90deg,${palette.footprint.join(",")})` }), "16 px a texel")],
     maps: () => [swatch("rgb(236,205,164)", "read by the picture"), swatch("rgb(86,106,134)", "drawn for nobody")],
@@ -125,7 +124,7 @@
             element("div", { class: "chooser" },
               element("button", { type: "button", class: "step", "aria-label": "Previous technique", onclick: () => step(-1) }, "‹"), this.select,
               element("button", { type: "button", class: "step", "aria-label": "Next technique", onclick: () => step(1) }, "›"))),
-          element("label", {}, element("span", {}, "Compare the picture with"), this.versusSelect)),
+          element("label", {}, element("span", {}, "Compare with"), this.versusSelect)),
         this.body);
       this.select.setAttribute("aria-label", `Technique shown for ${scene.name}`);
       byId("scenes").append(this.section);

@@ -25,7 +25,8 @@ struct Row {
         frame.colour = backend::Image<backend::Rgba8>(extent);
         frame.normal = backend::Image<backend::Texel4>(extent, {0.0f, 1.0f, 0.0f, 1.0f});
         for (int x = 0; x < width; ++x)
-            truth.position.at(x, 0) = {2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(width) - 1.0f, 0.0f, 0.0f, 0.0f};
+            truth.position.at(x, 0) = {2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(width) - 1.0f, 0.0f,
+                                       0.0f, 0.0f};
         frame.position = truth.position;
         // World x and z become NDC x and y, for the eye and for the map.
         glm::mat4 const from_above(1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 1);

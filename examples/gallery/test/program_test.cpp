@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The program from outside: what it writes, what it says when it cannot, and whether the page it made works in a browser.
+// The program from outside: what it writes, what it says when it cannot, and whether its page works in a browser.
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -33,14 +33,15 @@ protected:
     static void SetUpTestSuite() {
         place_ = fs::temp_directory_path() / ("gallery test " + std::to_string(::getpid()));
         fs::create_directory(place_);
-        write("cube.obj",
-              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-              "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");
+        write("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                          "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");
         made_ = gallery(quick + " cube.obj cube.obj --out made");
     }
     static void TearDownTestSuite() { fs::remove_all(place_); }
 
-    static void write(std::string const& name, std::string const& text) { std::ofstream(place_ / name, std::ios::binary) << text; }
+    static void write(std::string const& name, std::string const& text) {
+        std::ofstream(place_ / name, std::ios::binary) << text;
+    }
 
     // Runs a shell command in the folder.
     static Ended command(std::string const& line) {
@@ -62,7 +63,8 @@ protected:
     }
 
     // One line on the standard error output, the status wanted, and nothing written or left behind.
-    static void expect_refusal(std::string const& arguments, int status, std::string const& says, std::string const& before = {}) {
+    static void expect_refusal(std::string const& arguments, int status, std::string const& says,
+                               std::string const& before = {}) {
         SCOPED_TRACE(arguments);
         auto const before_names = standing();
         Ended const ended = gallery(arguments, before);
@@ -73,8 +75,9 @@ protected:
     }
 
     static std::string verdict() {
-        Ended const ended = command("chromium --headless --no-sandbox --disable-gpu --user-data-dir=browser --virtual-time-budget=60000"
-                                    " --dump-dom \"file://$(printf %s \"$PWD\" | sed 's/ /%20/g')/made/index.html#check\" 2> /dev/null");
+        Ended const ended = command(
+            "chromium --headless --no-sandbox --disable-gpu --user-data-dir=browser --virtual-time-budget=60000"
+            " --dump-dom \"file://$(printf %s \"$PWD\" | sed 's/ /%20/g')/made/index.html#check\" 2> /dev/null");
         fs::remove_all(place_ / "browser");
         std::string const mark = "data-verdict=\"";
         std::size_t const begin = ended.out.find(mark);
@@ -88,7 +91,9 @@ protected:
     static inline Ended made_;
 };
 
-bool has_browser() { return std::system("command -v chromium > /dev/null 2>&1") == 0; }
+bool has_browser() {
+    return std::system("command -v chromium > /dev/null 2>&1") == 0;
+}
 
 TEST_F(Gallery, IsMadeWithoutComplaint) {
     EXPECT_EQ(made_.status, 0);
@@ -112,7 +117,8 @@ TEST_F(Gallery, RecordsEveryFigureOfEveryPicture) {
     std::set<std::string> seen;
     for (auto const& record : results.at("records")) {
         std::string key;
-        for (char const* name : {"scene", "view", "technique", "backend"}) key += record.at(name).get<std::string>() + "/";
+        for (char const* name : {"scene", "view", "technique", "backend"})
+            key += record.at(name).get<std::string>() + "/";
         EXPECT_TRUE(seen.insert(key).second) << key << " twice";
         for (char const* name : {"mis_shadowed_fraction", "mis_shadowed_fraction_off_edge", "map_used_fraction"}) {
             EXPECT_GE(record.at(name).get<double>(), 0.0) << key << name;
@@ -120,13 +126,15 @@ TEST_F(Gallery, RecordsEveryFigureOfEveryPicture) {
         }
         for (char const* name : {"map_size", "maps", "lit_facing_pixels", "beyond_pixels", "unmapped_pixels"})
             EXPECT_GE(record.at(name).get<long>(), 0) << key << name;
-        for (char const* name : {"ms_depth", "ms_receive"}) EXPECT_GT(record.at(name).get<double>(), 0.0) << key << name;
+        for (char const* name : {"ms_depth", "ms_receive"})
+            EXPECT_GT(record.at(name).get<double>(), 0.0) << key << name;
         EXPECT_LE(record.at("footprint_mean").get<double>(), record.at("footprint_max").get<double>()) << key;
         EXPECT_LE(record.at("footprint_p95").get<double>(), record.at("footprint_max").get<double>()) << key;
         EXPECT_LE(record.at("lit_facing_pixels").get<long>() + record.at("beyond_pixels").get<long>(), 160 * 90) << key;
     }
     for (auto const& claim : results.at("claims"))
-        for (char const* name : {"id", "source", "statement", "measured", "reason"}) EXPECT_TRUE(claim.at(name).is_string());
+        for (char const* name : {"id", "source", "statement", "measured", "reason"})
+            EXPECT_TRUE(claim.at(name).is_string());
     EXPECT_EQ(results.at("settings").at("width"), 160);
     EXPECT_NE(results.at("machine").at("backends").at(0).at("driver"), "");
 }
@@ -141,7 +149,8 @@ TEST_F(Gallery, PageShowsEveryPictureAndSeesOneThatIsMissing) {
     if (!has_browser()) GTEST_SKIP() << "NOT TESTED: the gallery page in a browser, for there is no chromium";
     std::string const good = verdict();
     EXPECT_EQ(good.substr(0, 3), "ok:") << good;
-    fs::path const truth = fs::directory_iterator(fs::directory_iterator(place_ / "made" / "images")->path())->path() / "truth.png";
+    fs::path const truth =
+        fs::directory_iterator(fs::directory_iterator(place_ / "made" / "images")->path())->path() / "truth.png";
     ASSERT_TRUE(fs::exists(truth));
     fs::rename(truth, place_ / "truth.png");
     std::string const bad = verdict();

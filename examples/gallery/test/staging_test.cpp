@@ -14,7 +14,9 @@ namespace fs = std::filesystem;
 
 class StagingTest : public ::testing::Test {
 protected:
-    StagingTest() : place_(fs::temp_directory_path() / ("staging test " + std::to_string(::getpid()))) { fs::create_directory(place_); }
+    StagingTest() : place_(fs::temp_directory_path() / ("staging test " + std::to_string(::getpid()))) {
+        fs::create_directory(place_);
+    }
     ~StagingTest() override { fs::remove_all(place_); }
 
     static void write(fs::path const& file, std::string const& text) { std::ofstream(file) << text; }
