@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 #
 # Sourced by scripts/demo and scripts/test: what each needs of Debian, once, and how it gets there.
 

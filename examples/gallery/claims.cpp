@@ -43,12 +43,14 @@ double ground_footprint(glm::dmat4 const& map, double map_size, double depth) {
         .major;
 }
 
-// Mean over eye depths from `begin` to `end` metres, with four stable cascades at this lambda.
+// Mean over eye depths from `begin` to `end` metres, with four cascades at this lambda, each fitted to its slice's corners
+// as in the chapter. (A stable sphere is centred on the far end of a wide slice: where the slice begins does not matter.)
 double cascade_footprint(double lambda, double begin, double end) {
     CascadeOptions<double> options;
     options.lambda = lambda;
     options.map_size = 1024;
     options.blend = 0.0;
+    options.fit = CascadeFit::tight;
     options.clip = gl_zero_to_one_clip;
     auto const fitted = fit_cascades(walker(), directional(glm::dvec3(0.0, -1.0, 0.0)), flat_world(), flat_world(), options);
     double sum = 0.0;

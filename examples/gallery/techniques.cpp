@@ -104,9 +104,9 @@ SliceRange<double> whole(Input const& in) {
     return {in.seen.z_near, in.seen.z_far, in.seen.z_far};
 }
 
-void cascades(MapSet& set, Input const& in, int count, double lambda, CascadeFit fit) {
+void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
+    set.frame.choice = choice;
     CascadeOptions<double> options;
-    options.count = count;
     options.lambda = lambda;
     options.fit = fit;
     options.map_size = in.map_size;
@@ -169,8 +169,10 @@ struct Entry {
 
 std::vector<Entry> const& entries() {
     auto const pssm = "GPU Gems 3 ch. 10 (Zhang et al. 2007)";
-    auto const by_depth = [](int count, double lambda, CascadeFit fit) {
-        return [=](MapSet& set, Input const& in) { cascades(set, in, count, lambda, fit); };
+    // Lambda 0.65: at 0.1 m the near distance is hardly ever where the nearest receivers are, which weakens the logarithm.
+    // By the first map that holds the point: a sphere reaches past its slice, and its texels are finer than the next's.
+    auto const four = [](double lambda, CascadeFit cascade_fit, MapChoice choice = MapChoice::by_map) {
+        return [=](MapSet& set, Input const& in) { cascades(set, in, lambda, cascade_fit, choice); };
     };
     auto const single = [](ShadowMap<double> (*make)(Input const&)) {
         return [=](MapSet& set, Input const& in) { add(set, in, make(in), whole(in)); };
@@ -180,13 +182,15 @@ std::vector<Entry> const& entries() {
         {{"uniform-1-2048", "One uniform map, four times the texels", "Williams 1978", 2048, 1, true}, false,
          single(standard_map)},
         {{"cascades-4-uniform", "Four cascades, uniform splits", pssm, 1024, 4, false}, false,
-         by_depth(4, 0.0, CascadeFit::stable)},
+         four(0.0, CascadeFit::stable)},
         {{"cascades-4-log", "Four cascades, logarithmic splits", pssm, 1024, 4, false}, false,
-         by_depth(4, 1.0, CascadeFit::stable)},
+         four(1.0, CascadeFit::stable)},
         {{"cascades-4-stable", "Four cascades, practical splits, stable", pssm, 1024, 4, true}, true,
-         by_depth(4, 0.5, CascadeFit::stable)},
+         four(0.65, CascadeFit::stable)},
+        {{"cascades-4-by-depth", "Four stable cascades, chosen by depth and blended", pssm, 1024, 4, true}, false,
+         four(0.65, CascadeFit::stable, MapChoice::by_depth)},
         {{"cascades-4-tight", "Four cascades, practical splits, tight", pssm, 1024, 4, true}, false,
-         by_depth(4, 0.5, CascadeFit::tight)},
+         four(0.65, CascadeFit::tight)},
         {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false}, true,
          single(warped_map)},
         {{"vdsm", "View-dependent map, lit elsewhere", "Kwon 2002", 1024, 1, true}, false, single(thesis_map)},
@@ -228,7 +232,7 @@ MapSet fit(Technique const& technique, Scene const& scene, View const& view, bac
     set.map_size = technique.map_size;
     set.frame = unshadowed(view, extent);
     set.frame.map_size = float(technique.map_size);
-    set.frame.choice = technique.id.starts_with("cascades") ? MapChoice::by_depth : MapChoice::by_map;
+    set.frame.choice = MapChoice::by_map;
     View3 const eye = eye_of(view, extent);
     View3 seen = eye;
     seen.z_far = view.shadow_distance;

@@ -99,12 +99,14 @@ struct MapBias {
 
 template <class T>
 struct BiasOptions {
-    T texels = T(0.5);      // texels of slope in favour of light: for surfaces that are not quite their planes
-    T metres = T(0);        // along the light, on top
-    int filter_radius = 1;  // half width of the kernel, texels
-    bool tap_plane =
-        true;            // each tap is compared with the plane's depth there; false: the kernel goes into slope_texels
-    T steepest = T(20);  // tangent of the angle between light and normal beyond which slopes are cut
+    T flat_texels = T(0.75);  // texels of a plane at half a right angle to the light, whatever the receiver's slope: for
+                              // steps smaller than a texel, and for curved surfaces
+    T texels = T(0.1);        // texels of the receiver's own slope: for surfaces that are not quite their planes
+    T metres = T(0);          // along the light, on top
+    int filter_radius = 1;    // half width of the kernel, texels
+    bool tap_plane = true;    // each tap is compared with the plane's depth there; false: the kernel goes into
+                              // slope_texels
+    T steepest = T(20);       // tangent of the angle between light and normal beyond which slopes are cut
     T depth_step = T(1) / T(1 << 23);  // of the stored format: 2^-23 for float and for 24 bits, 2^-16 for 16 bits
 };
 
@@ -230,6 +232,7 @@ template <class T>
     if (!(gain > T(0)) || map_size < 1) return {};
     Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
     T const metres = detail::option(options.metres, T(0));
+    T const flat_texels = detail::option(options.flat_texels, T(0));
     if (light.kind == LightKind::directional) {
         // A warp's own w makes depth lean on planes across the light: by Z - depth * W, of which the ends are the most.
         Vec3<T> const z_row(row(canonical, 2)), w_row(row(canonical, 3));
@@ -237,6 +240,8 @@ template <class T>
         T const at_near_end = glm::length(lean), at_far_end = glm::length(lean - w_row);
         T const across = at_near_end > at_far_end ? at_near_end : at_far_end;
         MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, across, options);
+        // A texel in metres grows as w and depth a metre falls as 1 / w: of a bias in texels the two cancel.
+        bias.constant += flat_texels * detail::steepest_texel(canonical, map_size, gain);
         bias.per_inverse_w += gain * metres;
         if (detail::is_affine(canonical)) {
             bias.constant += bias.per_inverse_w;
@@ -248,6 +253,9 @@ template <class T>
     T const w_per_metre = safe_normalize(Vec3<T>(row(canonical, 3))).length;
     T const at_near_end = gain * w_per_metre * ends.nearest;
     MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, at_near_end, at_near_end, options);
+    // Here depth a metre falls as 1 / w^2, so a texel's depth falls as 1 / w from what it is at the near end.
+    if (ends.nearest > T(0))
+        bias.per_inverse_w += flat_texels * detail::steepest_texel(canonical, map_size, at_near_end) / ends.nearest;
     T const curve = gain * w_per_metre * metres;
     bias.constant -= curve * ends.nearest * ends.farthest;
     bias.per_inverse_w += curve * (ends.nearest + ends.farthest);

@@ -22,11 +22,15 @@
 #include <shadowmath/fit_crop.hpp>
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/light.hpp>
+#include <shadowmath/margin.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/slice.hpp>
 #include <shadowmath/splits.hpp>
 #include <shadowmath/texel_grid.hpp>
 #include <shadowmath/view_volume.hpp>
+
+#include <array>
+#include <cstdint>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -93,7 +97,7 @@ template <class T>
 
 template <class T>
 [[nodiscard]] inline int kernel_radius(CascadeOptions<T> const& options, Faults& faults) noexcept {
-    int const most = options.map_size / 4 < 64 ? options.map_size / 4 : 64;
+    int const quarter = options.map_size > 0 ? options.map_size / 4 : 0, most = quarter < 64 ? quarter : 64;
     int const radius = options.filter_radius < 0 ? 0 : (options.filter_radius > most ? most : options.filter_radius);
     if (radius != options.filter_radius) faults |= Fault::clamped_option;
     return radius;
@@ -148,16 +152,17 @@ template <class T>
         cascades.faults = faults;
         return cascades;
     }
-    if (options.map_size < 1) {
-        cascades.faults = faults | Fault::map_too_small;
-        return cascades;
-    }
     bool const pinned = !(options.first_split_end == T(0));
     Splits<T> const splits =
         pinned ? pinned_splits(seen.z_near, seen.z_far, options.count, options.first_split_end, options.lambda)
                : practical_splits(seen.z_near, seen.z_far, options.count, options.lambda);
     // One texel more than the kernel needs: the texel that holds the point may be cut by the map's side.
     T const margin_texels = T(detail::kernel_radius(options, faults) + 1);
+    faults |= faults_of_margin(options.map_size, margin_texels);
+    if (faults.has(Fault::map_too_small)) {
+        cascades.faults = faults;
+        return cascades;
+    }
     T blend = options.blend;
     if (!all_finite(&options.blend, 1) || blend < T(0) || blend > T(1)) {
         blend = all_finite(&options.blend, 1) && blend > T(1) ? T(1) : T(0);

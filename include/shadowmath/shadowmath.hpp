@@ -5,35 +5,49 @@
 
 #include <shadowmath/version.hpp>
 
+// The ground.
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/clip_space.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>
 #include <shadowmath/finite.hpp>
+#include <shadowmath/shadow_map.hpp>
 
+// What the user has.
 #include <shadowmath/light.hpp>
 #include <shadowmath/view_volume.hpp>
 
+// Where along the view.
 #include <shadowmath/slice.hpp>
 #include <shadowmath/splits.hpp>
 
+// How to look from the light.
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/light_box.hpp>
+#include <shadowmath/margin.hpp>
 
+// Other ways to look.
+#include <shadowmath/map_rows.hpp>
+#include <shadowmath/polytope.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
+// Stillness; translate and scale.
 #include <shadowmath/region.hpp>
 #include <shadowmath/texel_grid.hpp>
 
+// What a matrix is worth, and needs.
+#include <shadowmath/aliasing.hpp>
 #include <shadowmath/bias.hpp>
 #include <shadowmath/footprint.hpp>
+#include <shadowmath/tangent.hpp>
 
+// The one call.
 #include <shadowmath/cascades.hpp>
-#include <shadowmath/shadow_map.hpp>
 
+// What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>
