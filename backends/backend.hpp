@@ -35,44 +35,44 @@ struct DepthLayer {
 };
 
 struct DepthPass {
-    int map_size = 1024;                     // texels along one side; all layers share it
-    std::span<DepthLayer const> layers;      // 1 to max_maps
-    bool depth_clamp = true;                 // pancake casters outside [0, 1] in depth instead of clipping them
+    int map_size = 1024;                 // texels along one side; all layers share it
+    std::span<DepthLayer const> layers;  // 1 to max_maps
+    bool depth_clamp = true;             // pancake casters outside [0, 1] in depth instead of clipping them
 };
 
 enum class MapChoice : std::int32_t {
-    by_depth = 0,    // the first map whose depth_end lies beyond the point's eye depth; outside it the point is lit
-    by_map = 1,      // the first map that holds the point, filter margin included; none: lit
+    by_depth = 0,  // the first map whose depth_end lies beyond the point's eye depth; outside it the point is lit
+    by_map = 1,    // the first map that holds the point, filter margin included; none: lit
 };
 
 // What the receiver shader knows of one map. The layout is std140: sixteen-byte members only.
 struct MapConstants {
-    glm::mat4 clip_from_world{1.0f};         // the matrix that the layer was drawn with
-    float depth_begin = 0.0f;                // eye depth in metres where the map starts to serve (by_depth)
-    float depth_end = 0.0f;                  // eye depth in metres where it stops (by_depth)
-    float blend_begin = 0.0f;                // eye depth from which it blends into the next map; >= depth_end: no blending
-    float w_min = 0.0f;                      // clip w at or below this: the map does not hold the point
-    float bias_constant = 0.0f;              // depth (of [0, 1]) subtracted from every receiver depth
-    float bias_slope_texels = 0.0f;          // texels of the receiver plane's slope subtracted on top
-    float slope_limit = 1.0f;                // largest change of depth a texel that the slope terms believe
-    float bias_w = 0.0f;                     // depth subtracted times 1 / clip w: a bias that is constant in clip z
+    glm::mat4 clip_from_world{1.0f};  // the matrix that the layer was drawn with
+    float depth_begin = 0.0f;         // eye depth in metres where the map starts to serve (by_depth)
+    float depth_end = 0.0f;           // eye depth in metres where it stops (by_depth)
+    float blend_begin = 0.0f;         // eye depth from which it blends into the next map; >= depth_end: no blending
+    float w_min = 0.0f;               // clip w at or below this: the map does not hold the point
+    float bias_constant = 0.0f;       // depth (of [0, 1]) subtracted from every receiver depth
+    float bias_slope_texels = 0.0f;   // texels of the receiver plane's slope subtracted on top
+    float slope_limit = 1.0f;         // largest change of depth a texel that the slope terms believe
+    float bias_w = 0.0f;              // depth subtracted times 1 / clip w: a bias that is constant in clip z
 };
 
 // Everything that the receiver pass reads; one std140 uniform block.
 struct FrameConstants {
-    glm::mat4 clip_from_world{1.0f};         // the eye's
-    glm::vec4 eye_position{0.0f};            // world
-    glm::vec4 eye_forward{0.0f};             // unit, world; eye depth = dot(forward, p - position)
-    glm::vec4 light{0.0f, 1.0f, 0.0f, 0.0f}; // (direction toward the light, 0) or (position, 1)
+    glm::mat4 clip_from_world{1.0f};               // the eye's
+    glm::vec4 eye_position{0.0f};                  // world
+    glm::vec4 eye_forward{0.0f};                   // unit, world; eye depth = dot(forward, p - position)
+    glm::vec4 light{0.0f, 1.0f, 0.0f, 0.0f};       // (direction toward the light, 0) or (position, 1)
     glm::vec4 spot_axis{0.0f, 0.0f, 0.0f, -2.0f};  // unit axis of travel, cosine of the outer half angle; -2: no cone
     glm::vec4 ambient{0.30f, 0.34f, 0.42f, 0.0f};
     glm::vec4 light_colour{1.0f, 0.95f, 0.85f, 0.0f};
     glm::vec4 sky{0.62f, 0.74f, 0.88f, 1.0f};
-    std::int32_t map_count = 0;              // 0: everything lit
+    std::int32_t map_count = 0;  // 0: everything lit
     MapChoice choice = MapChoice::by_depth;
-    std::int32_t filter_radius = 0;          // 0, 1, 2: 1, 3x3, 5x5 taps
-    std::int32_t tap_plane = 1;              // 1: each tap is compared with the receiver plane's depth at that tap
-    float map_size = 1.0f;                   // texels
+    std::int32_t filter_radius = 0;  // 0, 1, 2: 1, 3x3, 5x5 taps
+    std::int32_t tap_plane = 1;      // 1: each tap is compared with the receiver plane's depth at that tap
+    float map_size = 1.0f;           // texels
     float specular = 0.15f;
     float specular_power = 24.0f;
     float unused = 0.0f;
@@ -83,7 +83,7 @@ static_assert(sizeof(MapConstants) == 96 && sizeof(FrameConstants) == 64 + 7 * 1
 
 struct ScenePass {
     Extent extent;
-    FrameConstants frame;                    // reads the maps of the last depth pass
+    FrameConstants frame;  // reads the maps of the last depth pass
 };
 
 struct Texel4 {
@@ -95,14 +95,14 @@ struct Rgba8 {
 
 // What the receiver pass leaves, pixel by pixel.
 struct Frame {
-    Image<Rgba8> colour;                     // shaded, sRGB-encoded
-    Image<Texel4> position;                  // world position; w: index of the map used, -1 none, -2 sky
-    Image<Texel4> normal;                    // geometric normal, unit, toward the eye; w: visibility of the light, 0 to 1
+    Image<Rgba8> colour;     // shaded, sRGB-encoded
+    Image<Texel4> position;  // world position; w: index of the map used, -1 none, -2 sky
+    Image<Texel4> normal;    // geometric normal, unit, toward the eye; w: visibility of the light, 0 to 1
 };
 
 struct BackendInfo {
-    std::string name;                        // "egl", "osmesa", "vulkan", "null"
-    std::string driver;                      // as the driver calls itself
+    std::string name;    // "egl", "osmesa", "vulkan", "null"
+    std::string driver;  // as the driver calls itself
 };
 
 class Backend {

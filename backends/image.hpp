@@ -17,7 +17,7 @@ struct Extent {
 template <class Pixel>
 struct Image {
     Extent extent;
-    std::vector<Pixel> pixels;       // row by row, extent.width * extent.height of them
+    std::vector<Pixel> pixels;  // row by row, extent.width * extent.height of them
 
     Image() = default;
     Image(Extent e, Pixel const& fill = Pixel{})

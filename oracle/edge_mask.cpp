@@ -40,9 +40,9 @@ backend::Image<Judge> edge_mask(backend::Image<Truth> const& centres, backend::I
                 Truth const other = samples.at(i, j);
                 return other != Truth::sky && (other == Truth::lit) != (own == Truth::lit);
             };
-            mask.at(x, y) = own == Truth::sky                            ? Judge::sky
+            mask.at(x, y) = own == Truth::sky                         ? Judge::sky
                             : std::ranges::any_of(offsets, disagrees) ? Judge::edge
-                                                                         : Judge::off_edge;
+                                                                      : Judge::off_edge;
         }
     }
     return mask;

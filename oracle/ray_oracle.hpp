@@ -29,11 +29,11 @@ enum class Truth : std::uint8_t { sky, facing_away, shadowed, lit };
 [[nodiscard]] double ray_offset(glm::dvec3 point) noexcept;
 
 struct Hit {
-    double distance = 0.0;        // metres, along a unit direction
-    std::uint32_t triangle = 0;   // of Scene::indices, counted in threes
-    double u = 0.0;               // weight of the triangle's second vertex
-    double v = 0.0;               // weight of the third
-    bool back_face = false;       // seen from the side from which the triangle winds clockwise
+    double distance = 0.0;       // metres, along a unit direction
+    std::uint32_t triangle = 0;  // of Scene::indices, counted in threes
+    double u = 0.0;              // weight of the triangle's second vertex
+    double v = 0.0;              // weight of the third
+    bool back_face = false;      // seen from the side from which the triangle winds clockwise
 };
 
 class RayOracle {

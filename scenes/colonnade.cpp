@@ -19,8 +19,8 @@ constexpr double half_pi = pi / 2;
 // The court: x from -court_x to court_x, z likewise; its floor at y = 0. Columns stand around it on a platform.
 constexpr double court_x = 30.0;
 constexpr double court_z = 19.0;
-constexpr double platform = 0.75;     // five steps of 15 cm above the floor
-constexpr double gallery = 5.2;       // from the front of the columns to the back wall
+constexpr double platform = 0.75;  // five steps of 15 cm above the floor
+constexpr double gallery = 5.2;    // from the front of the columns to the back wall
 constexpr double column_height = 7.2;
 constexpr double land_edge = 62.0;
 
@@ -222,8 +222,10 @@ private:
                 mesh_.colour = srgb(0xC98E68);
                 add_urn(mesh_, 1.1, detail_);
                 mesh_.frame = mesh_.frame.moved({0.0, 0.9, 0.0});
-                if (std::abs(x) > 18.0) add_cypress(mesh_, random_, 4.2, std::min(detail_, 1));
-                else add_bush(mesh_, random_, 1.2, detail_);
+                if (std::abs(x) > 18.0)
+                    add_cypress(mesh_, random_, 4.2, std::min(detail_, 1));
+                else
+                    add_bush(mesh_, random_, 1.2, detail_);
                 mesh_.end_object();
             }
         for (double const x : {-7.0, 7.0})
@@ -306,8 +308,10 @@ private:
             double const outside = std::max(std::abs(x) - court_x, std::abs(z) - court_z);
             if (outside < 13.0) continue;
             mesh_.frame = standing_at({x, land(x, z, seed_) - 0.05, z}, yaw);
-            if (tall) add_cypress(mesh_, random_, height * 1.7, detail_);
-            else add_broadleaf(mesh_, random_, height, detail_);
+            if (tall)
+                add_cypress(mesh_, random_, height * 1.7, detail_);
+            else
+                add_broadleaf(mesh_, random_, height, detail_);
             mesh_.end_object();
         }
         for (int i = 0; i < 9; ++i) {
@@ -363,6 +367,8 @@ private:
 
 }  // namespace
 
-NamedScene make_colonnade(SceneSize size, std::uint64_t seed) { return Colonnade(size, seed).build(); }
+NamedScene make_colonnade(SceneSize size, std::uint64_t seed) {
+    return Colonnade(size, seed).build();
+}
 
 }  // namespace shadowmath::scenes

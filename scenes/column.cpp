@@ -72,7 +72,8 @@ void add_balustrade(MeshBuilder& mesh, glm::dvec3 from, glm::dvec3 to, int detai
     Ring const ring = circle(5 + 3 * detail);
     for (int i = 1; i < balusters; ++i) {
         mesh.frame = frame.moved(from + (to - from) * (static_cast<double>(i) / balusters));
-        if (detail == 0) mesh.lathe({{0.08, 0.2}, {0.09, 0.4}, {0.04, 0.75}, {0.07, 0.92}}, ring);
+        if (detail == 0)
+            mesh.lathe({{0.08, 0.2}, {0.09, 0.4}, {0.04, 0.75}, {0.07, 0.92}}, ring);
         else
             mesh.lathe({{0.085, 0.2},
                         {0.085, 0.27},

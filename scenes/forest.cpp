@@ -102,8 +102,10 @@ private:
             double const yaw = random_.between(0.0, 2.0 * pi);
             double const height = random_.between(10.0, 18.0);
             stand(x, z, yaw);
-            if (random_.chance(0.2)) add_conifer(mesh_, random_, height * 1.15, detail_);
-            else add_leafy_tree(mesh_, random_, height, leaves, detail_);
+            if (random_.chance(0.2))
+                add_conifer(mesh_, random_, height * 1.15, detail_);
+            else
+                add_leafy_tree(mesh_, random_, height, leaves, detail_);
             mesh_.end_object();
         }
     }
@@ -203,6 +205,8 @@ private:
 
 }  // namespace
 
-NamedScene make_forest(SceneSize size, std::uint64_t seed) { return Forest(size, seed).build(); }
+NamedScene make_forest(SceneSize size, std::uint64_t seed) {
+    return Forest(size, seed).build();
+}
 
 }  // namespace shadowmath::scenes

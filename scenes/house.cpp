@@ -18,8 +18,8 @@ struct Paint {
 Paint choose_paint(Random& random) {
     static std::array const walls{srgb(0xE8D2AC), srgb(0xDDB988), srgb(0xF1E6CF), srgb(0xE3BF86), srgb(0xDCA890),
                                   srgb(0xEFE9DC), srgb(0xC9CFC8), srgb(0xE6C9B0), srgb(0xD8C39A)};
-    static std::array const roofs{srgb(0xB2573A), srgb(0xC06A47), srgb(0xA34C34), srgb(0xCB7D55), srgb(0x96503C),
-                                  srgb(0xB86B4C), srgb(0x6D7076)};
+    static std::array const roofs{srgb(0xB2573A), srgb(0xC06A47), srgb(0xA34C34), srgb(0xCB7D55),
+                                  srgb(0x96503C), srgb(0xB86B4C), srgb(0x6D7076)};
     static std::array const shutters{srgb(0x5E7F6B), srgb(0x4F6D8A), srgb(0x8A4038), srgb(0x7A8C5A), srgb(0xE9E4D6)};
     Paint paint;
     paint.wall = tinted(random.pick(walls), random, 0.06);
@@ -151,8 +151,8 @@ void add_house(MeshBuilder& mesh, Random& random, HousePlan const& plan) {
         }
     }
     mesh.frame = centre;
-    double const chimney_x = random.between(0.35, 0.8) * half_width * (random.chance(0.5) ? 1.0 : -1.0) *
-                             (plan.gable_in_front ? 0.5 : 1.0);
+    double const chimney_x =
+        random.between(0.35, 0.8) * half_width * (random.chance(0.5) ? 1.0 : -1.0) * (plan.gable_in_front ? 0.5 : 1.0);
     double const chimney_z = random.between(-0.4, 0.4) * half_depth;
     add_chimney(mesh, paint, {chimney_x, eaves, chimney_z}, ridge + random.between(0.5, 0.9), plan.detail);
 
@@ -213,8 +213,14 @@ void add_church(MeshBuilder& mesh, Random& random, int detail) {
             if (k != 3) {
                 mesh.box({x + 1.5, 3.0, -0.1}, {x + 2.9, 8.2, 0.08});
                 mesh.frame = mesh.frame.moved({x + 2.2, 8.2, -0.1});
-                mesh.hexahedron({glm::dvec3(-0.7, -0.01, 0), {0.7, -0.01, 0}, {-0.05, 1.1, 0}, {0.05, 1.1, 0},
-                                 {-0.7, -0.01, 0.18}, {0.7, -0.01, 0.18}, {-0.05, 1.1, 0.18}, {0.05, 1.1, 0.18}});
+                mesh.hexahedron({glm::dvec3(-0.7, -0.01, 0),
+                                 {0.7, -0.01, 0},
+                                 {-0.05, 1.1, 0},
+                                 {0.05, 1.1, 0},
+                                 {-0.7, -0.01, 0.18},
+                                 {0.7, -0.01, 0.18},
+                                 {-0.05, 1.1, 0.18},
+                                 {0.05, 1.1, 0.18}});
                 mesh.frame = mesh.frame.moved({-x - 2.2, -8.2, 0.1});
             }
             mesh.colour = paint.stone;  // a buttress, sloping out toward its foot

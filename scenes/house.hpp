@@ -9,11 +9,11 @@
 namespace shadowmath::scenes {
 
 struct HousePlan {
-    double width = 9.0;        // metres
+    double width = 9.0;  // metres
     double depth = 8.0;
     int storeys = 2;
     bool gable_in_front = false;
-    int detail = 1;            // 0: panes; 1: sills, shutters, a dormer; 2: frames and bars
+    int detail = 1;  // 0: panes; 1: sills, shutters, a dormer; 2: frames and bars
 };
 
 void add_house(MeshBuilder& mesh, Random& random, HousePlan const& plan);

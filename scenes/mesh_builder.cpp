@@ -223,8 +223,10 @@ void MeshBuilder::blob(glm::dvec3 centre, glm::dvec3 radii, int detail, double r
                 p[c] = at(k[c].x, k[c].y);
                 n[c] = out(k[c].x, k[c].y) / radii;
             }
-            if (smooth) triangle(p, n);
-            else triangle(p[0], p[1], p[2]);
+            if (smooth)
+                triangle(p, n);
+            else
+                triangle(p[0], p[1], p[2]);
         };
         for (int i = 0; i < detail; ++i) {
             for (int j = 0; i + j < detail; ++j) {

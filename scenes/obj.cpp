@@ -4,8 +4,8 @@
 #include "scenes/mesh_builder.hpp"
 #include "scenes/sun.hpp"
 
-#include <glm/common.hpp>
 #include <tiny_obj_loader.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -39,7 +39,9 @@ struct Mesh {
     std::string fault;  // the first thing found wrong
 };
 
-bool finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(glm::dvec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // tinyobjloader reads what is no number as 0; here it is a fault.
 bool starts_with_three_numbers(std::string_view text) {

@@ -26,7 +26,7 @@ public:
     [[nodiscard]] std::uint64_t bits() noexcept { return mix_bits(state_ += 0x9e3779b97f4a7c15u); }
     [[nodiscard]] double unit() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }  // [0, 1)
     [[nodiscard]] double between(double a, double b) noexcept { return a + (b - a) * unit(); }
-    [[nodiscard]] int below(int count) noexcept { return static_cast<int>(unit() * count); }      // 0 to count - 1
+    [[nodiscard]] int below(int count) noexcept { return static_cast<int>(unit() * count); }  // 0 to count - 1
     [[nodiscard]] bool chance(double probability) noexcept { return unit() < probability; }
 
     template <class Values>

@@ -10,7 +10,9 @@ namespace {
 constexpr std::array<std::string_view, 3> names{"town", "colonnade", "forest"};
 }
 
-std::span<std::string_view const> scene_names() { return names; }
+std::span<std::string_view const> scene_names() {
+    return names;
+}
 
 NamedScene make_scene(std::string_view name, SceneSize size, std::uint64_t seed) {
     if (name == names[0]) return make_town(size, seed);

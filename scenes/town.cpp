@@ -28,9 +28,12 @@ public:
         int const half_v = ground_.blocks_v() / 2;
         for (int j = -half_v; j <= half_v; ++j)
             for (int i = -half_u; i <= half_u; ++i) {
-                if (i == 0 && j == 0) add_square();
-                else if (i == 1 && j == 0) add_church_block();
-                else add_block(i, j);
+                if (i == 0 && j == 0)
+                    add_square();
+                else if (i == 1 && j == 0)
+                    add_church_block();
+                else
+                    add_block(i, j);
             }
         add_street_furniture();
         add_country();
@@ -224,8 +227,10 @@ private:
                 if (on_road(p) || (std::abs(p.x) < ground_.half_u() + 8.0 && std::abs(p.y) < ground_.half_v() + 8.0))
                     continue;
                 stand(p.x, p.y, yaw, 0.0);
-                if (conifers) add_conifer(mesh_, random_, height * 1.25, 0);
-                else add_broadleaf(mesh_, random_, height, 0);
+                if (conifers)
+                    add_conifer(mesh_, random_, height * 1.25, 0);
+                else
+                    add_broadleaf(mesh_, random_, height, 0);
                 mesh_.end_object();
             }
         }
@@ -270,6 +275,8 @@ private:
 
 }  // namespace
 
-NamedScene make_town(SceneSize size, std::uint64_t seed) { return Town(size, seed).build(); }
+NamedScene make_town(SceneSize size, std::uint64_t seed) {
+    return Town(size, seed).build();
+}
 
 }  // namespace shadowmath::scenes

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] int blocks_v() const { return blocks_v_; }
     [[nodiscard]] double half_u() const { return 0.5 * blocks_u_ * pitch_u; }  // the outermost streets run here
     [[nodiscard]] double half_v() const { return 0.5 * blocks_v_ * pitch_v; }
-    [[nodiscard]] double land(double u, double v) const;                     // height of the streets
+    [[nodiscard]] double land(double u, double v) const;  // height of the streets
     [[nodiscard]] glm::dvec3 world(double u, double v, double lift = 0.0) const;
     [[nodiscard]] Frame frame(double u, double v, double yaw_radians = 0.0, double lift = 0.0) const;
 

@@ -28,7 +28,8 @@ constexpr Extent screen{960, 540};
 constexpr double ground_distance = 200.0;
 
 ViewVolume<double> walker() {
-    Pose<double> const pose = pose_looking(glm::dvec3(0.0, 1.7, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0));
+    Pose<double> const pose =
+        pose_looking(glm::dvec3(0.0, 1.7, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0));
     return perspective_view(pose, 1.0, double(screen.width) / screen.height, 0.1, ground_distance);
 }
 
@@ -38,13 +39,14 @@ Aabb<double> flat_world() {
 
 // Eye pixels a texel, the longer way, on the ground straight ahead at this eye depth.
 double ground_footprint(glm::dmat4 const& map, double map_size, double depth) {
-    return footprint(clip_from_world(walker(), gl_zero_to_one_clip), glm::dvec2(screen.width, screen.height), map, map_size,
-                     glm::dvec3(0.0, 0.0, -depth), glm::dvec3(0.0, 1.0, 0.0))
+    return footprint(clip_from_world(walker(), gl_zero_to_one_clip), glm::dvec2(screen.width, screen.height), map,
+                     map_size, glm::dvec3(0.0, 0.0, -depth), glm::dvec3(0.0, 1.0, 0.0))
         .major;
 }
 
-// Mean over eye depths from `begin` to `end` metres, with four cascades at this lambda, each fitted to its slice's corners
-// as in the chapter. (A stable sphere is centred on the far end of a wide slice: where the slice begins does not matter.)
+// Mean over eye depths from `begin` to `end` metres, with four cascades at this lambda, each fitted to its slice's
+// corners as in the chapter. (A stable sphere is centred on the far end of a wide slice: where the slice begins does
+// not matter.)
 double cascade_footprint(double lambda, double begin, double end) {
     CascadeOptions<double> options;
     options.lambda = lambda;
@@ -52,7 +54,8 @@ double cascade_footprint(double lambda, double begin, double end) {
     options.blend = 0.0;
     options.fit = CascadeFit::tight;
     options.clip = gl_zero_to_one_clip;
-    auto const fitted = fit_cascades(walker(), directional(glm::dvec3(0.0, -1.0, 0.0)), flat_world(), flat_world(), options);
+    auto const fitted =
+        fit_cascades(walker(), directional(glm::dvec3(0.0, -1.0, 0.0)), flat_world(), flat_world(), options);
     double sum = 0.0;
     constexpr int samples = 200;
     for (int i = 0; i < samples; ++i) {
@@ -250,11 +253,15 @@ Claim simple_near(backend::Backend& backend, scenes::NamedScene const& town, Ext
             sum->judged += here.judged;
         }
     }
-    auto const percent = [](NearErrors const& e) { return e.judged > 0 ? 100.0 * double(e.wrong) / double(e.judged) : 0.0; };
+    auto const percent = [](NearErrors const& e) {
+        return e.judged > 0 ? 100.0 * double(e.wrong) / double(e.judged) : 0.0;
+    };
     return {"004-near-pixels",
             "weblog 2012 on a simple perspective map",
-            "The simple perspective map at 1024 squared has fewer mis-shadowed near pixels than the standard one at 2048 squared",
-            text("near pixels of the town's views that are wrong: simple %ld of %ld (%.2f %%), standard %ld of %ld (%.2f %%)",
+            "The simple perspective map at 1024 squared has fewer mis-shadowed near pixels than the standard one at "
+            "2048 squared",
+            text("near pixels of the town's views that are wrong: simple %ld of %ld (%.2f %%), standard %ld of %ld "
+                 "(%.2f %%)",
                  simple.wrong, simple.judged, percent(simple), standard.wrong, standard.judged, percent(standard)),
             simple.judged > 0 && simple.wrong < standard.wrong,
             "the warp spends texels near the eye wherever light and view are far from parallel"};
@@ -281,10 +288,16 @@ std::vector<Claim> measure_claims(backend::Backend& backend, bool quick) {
     Extent const extent = quick ? Extent{480, 270} : screen;
     auto const town = scenes::make_scene("town", quick ? scenes::SceneSize::small : scenes::SceneSize::medium);
     backend.upload(town.scene);
-    return {practical_near(),  practical_far(),   log_occupancy(),
-            worked_example(),  worked_example_code(),
-            vdsm_constant(),   vdsm_positive_w(), vdsm_cost(backend, town, extent, quick ? 4 : 8),
-            simple_near(backend, town, extent),   simple_wastes_half()};
+    return {practical_near(),
+            practical_far(),
+            log_occupancy(),
+            worked_example(),
+            worked_example_code(),
+            vdsm_constant(),
+            vdsm_positive_w(),
+            vdsm_cost(backend, town, extent, quick ? 4 : 8),
+            simple_near(backend, town, extent),
+            simple_wastes_half()};
 }
 
 }  // namespace shadowmath::gallery

@@ -20,14 +20,14 @@ struct Rendered {
     double ms_receive = 0.0;
 };
 
-// The faster of two runs is timed: the first one may also compile shaders and allocate.
-Rendered render(backend::Backend& backend, MapSet const& maps, backend::Extent extent) {
+// The fastest of the runs is timed: the first one may also compile shaders and allocate.
+Rendered render(backend::Backend& backend, MapSet const& maps, backend::Extent extent, int runs) {
     std::vector<backend::DepthLayer> layers;
     for (Map const& map : maps.maps) layers.push_back({glm::mat4(map.clip_from_world), map.casters});
     Rendered rendered;
     rendered.ms_depth = layers.empty() ? 0.0 : std::numeric_limits<double>::max();
     rendered.ms_receive = std::numeric_limits<double>::max();
-    for (int repeat = 0; repeat < 2; ++repeat) {
+    for (int i = 0; i < runs; ++i) {
         if (!layers.empty())
             rendered.ms_depth = std::min(rendered.ms_depth, backend.draw_depth({maps.map_size, layers}));
         rendered.ms_receive = std::min(rendered.ms_receive, backend.draw_scene({extent, maps.frame}));
@@ -52,7 +52,8 @@ public:
         MapSet const maps = fit(technique, scene_, view_, settings_.extent);
         backend::Image<backend::Rgba8> first_colour;
         for (auto const& backend : backends_) {
-            Rendered const rendered = render(*backend, maps, settings_.extent);
+            bool const is_first = &backend == &backends_.front();
+            Rendered const rendered = render(*backend, maps, settings_.extent, is_first ? 2 : 1);
             Measurement measured = measure(truth_, maps, rendered.frame);
             Record& record = measured.record;
             record.scene = scene_.name;
@@ -63,7 +64,7 @@ public:
             record.ms_receive = rendered.ms_receive;
             for (std::string const& message : backend->take_messages())
                 record.note += (record.note.empty() ? "driver: " : "; driver: ") + message;
-            if (&backend == &backends_.front()) {
+            if (is_first) {
                 write_pictures(technique, *backend, rendered.frame, measured);
                 first_colour = rendered.frame.colour;
             } else {

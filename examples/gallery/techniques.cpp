@@ -51,7 +51,7 @@ bool may_touch(glm::dmat4 const& clip_from_world, Aabb<double> const& box) {
     int outside[6] = {};
     for (auto const& corner : corners(box)) {
         glm::dvec4 const p = clip_from_world * glm::dvec4(corner, 1.0);
-        outside[0] += p.x < -p.w, outside[1] += p.x > p.w, outside[2] += p.y < -p.w, outside[3] += p.y > p.w;
+        outside[0] += p.x<-p.w, outside[1] += p.x> p.w, outside[2] += p.y<-p.w, outside[3] += p.y> p.w;
         outside[4] += p.w <= 0.0, outside[5] += p.z > p.w;
     }
     return std::none_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
@@ -66,14 +66,15 @@ std::vector<std::uint32_t> casters_in(glm::dmat4 const& clip_from_world, Scene c
 
 void note(MapSet& set, Faults faults) {
     for (std::uint32_t bit = 1; bit != 0; bit <<= 1)
-        if (faults.bits & bit) set.note += (set.note.empty() ? "" : "; ") + std::string(describe(static_cast<Fault>(bit)));
+        if (faults.bits & bit)
+            set.note += (set.note.empty() ? "" : "; ") + std::string(describe(static_cast<Fault>(bit)));
 }
 
 // What a technique is given, made once.
 struct Input {
     Scene const& scene;
-    View3 eye;                    // the whole camera
-    View3 seen;                   // up to the shadow distance
+    View3 eye;   // the whole camera
+    View3 seen;  // up to the shadow distance
     Light<double> light;
     Aabb<double> casters, receivers;
     int map_size;
@@ -163,14 +164,15 @@ ShadowMap<double> warped_map(Input const& in) {
 
 struct Entry {
     Technique technique;
-    bool quick;                                        // also in quick runs
+    bool quick;  // also in quick runs
     std::function<void(MapSet&, Input const&)> make;
 };
 
 std::vector<Entry> const& entries() {
     auto const pssm = "GPU Gems 3 ch. 10 (Zhang et al. 2007)";
-    // Lambda 0.65: at 0.1 m the near distance is hardly ever where the nearest receivers are, which weakens the logarithm.
-    // By the first map that holds the point: a sphere reaches past its slice, and its texels are finer than the next's.
+    // Lambda 0.65: at 0.1 m the near distance is hardly ever where the nearest receivers are, which weakens the
+    // logarithm. By the first map that holds the point: a sphere reaches past its slice, and its texels are finer than
+    // the next's.
     auto const four = [](double lambda, CascadeFit cascade_fit, MapChoice choice = MapChoice::by_map) {
         return [=](MapSet& set, Input const& in) { cascades(set, in, lambda, cascade_fit, choice); };
     };
@@ -179,22 +181,30 @@ std::vector<Entry> const& entries() {
     };
     static std::vector<Entry> const all = {
         {{"uniform-1", "One uniform map", "Williams 1978", 1024, 1, true}, true, single(standard_map)},
-        {{"uniform-1-2048", "One uniform map, four times the texels", "Williams 1978", 2048, 1, true}, false,
+        {{"uniform-1-2048", "One uniform map, four times the texels", "Williams 1978", 2048, 1, true},
+         false,
          single(standard_map)},
-        {{"cascades-4-uniform", "Four cascades, uniform splits", pssm, 1024, 4, false}, false,
+        {{"cascades-4-uniform", "Four cascades, uniform splits", pssm, 1024, 4, false},
+         false,
          four(0.0, CascadeFit::stable)},
-        {{"cascades-4-log", "Four cascades, logarithmic splits", pssm, 1024, 4, false}, false,
+        {{"cascades-4-log", "Four cascades, logarithmic splits", pssm, 1024, 4, false},
+         false,
          four(1.0, CascadeFit::stable)},
-        {{"cascades-4-stable", "Four cascades, practical splits, stable", pssm, 1024, 4, true}, true,
+        {{"cascades-4-stable", "Four cascades, practical splits, stable", pssm, 1024, 4, true},
+         true,
          four(0.65, CascadeFit::stable)},
-        {{"cascades-4-by-depth", "Four stable cascades, chosen by depth and blended", pssm, 1024, 4, true}, false,
+        {{"cascades-4-by-depth", "Four stable cascades, chosen by depth and blended", pssm, 1024, 4, true},
+         false,
          four(0.65, CascadeFit::stable, MapChoice::by_depth)},
-        {{"cascades-4-tight", "Four cascades, practical splits, tight", pssm, 1024, 4, true}, false,
+        {{"cascades-4-tight", "Four cascades, practical splits, tight", pssm, 1024, 4, true},
+         false,
          four(0.65, CascadeFit::tight)},
-        {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false}, true,
+        {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false},
+         true,
          single(warped_map)},
         {{"vdsm", "View-dependent map, lit elsewhere", "Kwon 2002", 1024, 1, true}, false, single(thesis_map)},
-        {{"vdsm-fallback", "View-dependent map, uniform map behind it", "Kwon 2002", 1024, 2, true}, true,
+        {{"vdsm-fallback", "View-dependent map, uniform map behind it", "Kwon 2002", 1024, 2, true},
+         true,
          [](MapSet& set, Input const& in) {
              add(set, in, thesis_map(in), whole(in));
              add(set, in, standard_map(in), whole(in));
@@ -219,8 +229,8 @@ FrameConstants unshadowed(View const& view, backend::Extent extent) {
     frame.clip_from_world = glm::mat4(clip_from_world(eye, clip));
     frame.eye_position = glm::vec4(glm::vec3(eye.pose.position), 1.0f);
     frame.eye_forward = glm::vec4(glm::vec3(eye.pose.forward), 0.0f);
-    frame.light = view.has_spot ? glm::vec4(glm::vec3(light.position), 1.0f)
-                                : glm::vec4(glm::vec3(-light.direction), 0.0f);
+    frame.light =
+        view.has_spot ? glm::vec4(glm::vec3(light.position), 1.0f) : glm::vec4(glm::vec3(-light.direction), 0.0f);
     if (view.has_spot)
         frame.spot_axis = glm::vec4(glm::vec3(light.direction), float(std::cos(light.half_angle_radians)));
     frame.filter_radius = filter_radius;

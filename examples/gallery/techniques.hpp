@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every technique that the gallery shows, as one function: view, light and bounds in, maps out. The only place where the
-// gallery meets the mathematics; what comes out are matrices and the constants of the receiver shader.
+// Every technique that the gallery shows, as one function: view, light and bounds in, maps out. The only place where
+// the gallery meets the mathematics; what comes out are matrices and the constants of the receiver shader.
 #pragma once
 
 #include "backends/backend.hpp"
@@ -16,11 +16,11 @@
 namespace shadowmath::gallery {
 
 struct Technique {
-    std::string id;              // "uniform-1", "cascades-4-stable", "vdsm": a file-name-safe word, unique
-    std::string title;           // a few words for people
-    std::string source;          // "GPU Gems 3 ch. 10", "thesis 2002", ...
+    std::string id;      // "uniform-1", "cascades-4-stable", "vdsm": a file-name-safe word, unique
+    std::string title;   // a few words for people
+    std::string source;  // "GPU Gems 3 ch. 10", "thesis 2002", ...
     int map_size = 1024;
-    int maps = 1;                // at most; the maps of a view may be fewer
+    int maps = 1;  // at most; the maps of a view may be fewer
     bool serves_spots = false;
 };
 
@@ -28,16 +28,16 @@ struct Technique {
 [[nodiscard]] std::vector<Technique> techniques(bool quick);
 
 struct Map {
-    glm::dmat4 clip_from_world{1.0};        // what footprints are measured with
-    std::vector<std::uint32_t> casters;     // objects of the scene to draw into it
+    glm::dmat4 clip_from_world{1.0};     // what footprints are measured with
+    std::vector<std::uint32_t> casters;  // objects of the scene to draw into it
 };
 
 struct MapSet {
-    std::vector<Map> maps;                  // empty: nothing to shadow, everything lit
-    backend::FrameConstants frame;          // complete, but for clip_from_world and eye, which are set as well
+    std::vector<Map> maps;          // empty: nothing to shadow, everything lit
+    backend::FrameConstants frame;  // complete, but for clip_from_world and eye, which are set as well
     int map_size = 1024;
-    std::vector<double> splits;             // eye depths of the split planes, metres; empty where there are none
-    std::string note;                       // what the library had to say: faults in words, fallbacks taken
+    std::vector<double> splits;  // eye depths of the split planes, metres; empty where there are none
+    std::string note;            // what the library had to say: faults in words, fallbacks taken
 };
 
 // The eye's matrix and the light of the view, with no map: what the G-buffer and the fully lit picture are drawn with.

@@ -99,8 +99,8 @@ struct MapBias {
 
 template <class T>
 struct BiasOptions {
-    T flat_texels = T(0.75);  // texels of a plane at half a right angle to the light, whatever the receiver's slope: for
-                              // steps smaller than a texel, and for curved surfaces
+    T flat_texels = T(0.75);  // texels of a plane at half a right angle to the light, whatever the receiver's slope:
+                              // for steps smaller than a texel, and for curved surfaces
     T texels = T(0.1);        // texels of the receiver's own slope: for surfaces that are not quite their planes
     T metres = T(0);          // along the light, on top
     int filter_radius = 1;    // half width of the kernel, texels
@@ -144,21 +144,30 @@ namespace detail {
 template <class T>
 inline constexpr T steepest_slope = T(1e6);
 
-// The most stored depth that a texel can span anywhere in the map when w times depth changes by at most this per metre
-// across the light. NDC x = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as w, its depth
-// shrinks as 1 / w, and only the least of |X - x W| over the map is left.
+// The most stored depth that a texel can span anywhere in the map along one axis, when w times depth changes by at most
+// this per metre across the light. NDC x = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as
+// w, its depth shrinks as 1 / w, and only the least of |X - x W| over the map is left.
+template <class T>
+[[nodiscard]] inline T spanned_by_texel(Mat4<T> const& canonical, int axis, int map_size, T change_per_metre) noexcept {
+    Vec3<T> const w_row(row(canonical, 3)), side(row(canonical, axis));
+    T const nearest = bounded_quotient(glm::dot(side, w_row), glm::dot(w_row, w_row), T(1));
+    T const change = safe_normalize(side - w_row * nearest).length;
+    return bounded_quotient(T(2) * change_per_metre, change * T(map_size), steepest_slope<T>);
+}
+
+// Of the two axes the one whose texels are longer.
 template <class T>
 [[nodiscard]] inline T steepest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
-    Vec3<T> const w_row(row(canonical, 3));
-    T steepest = T(0);
-    for (int axis = 0; axis < 2; ++axis) {
-        Vec3<T> const side(row(canonical, axis));
-        T const nearest = bounded_quotient(glm::dot(side, w_row), glm::dot(w_row, w_row), T(1));
-        T const change = safe_normalize(side - w_row * nearest).length;
-        T const spanned = bounded_quotient(T(2) * change_per_metre, change * T(map_size), steepest_slope<T>);
-        steepest = spanned > steepest ? spanned : steepest;
-    }
-    return steepest;
+    return glm::max(spanned_by_texel(canonical, 0, map_size, change_per_metre),
+                    spanned_by_texel(canonical, 1, map_size, change_per_metre));
+}
+
+// And the one whose texels are shorter: across a warp, where depth a texel is the same from near to far. Along it a
+// texel at the far end is so long that a bias made for it would hide the contact of everything near.
+template <class T>
+[[nodiscard]] inline T flattest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
+    return glm::min(spanned_by_texel(canonical, 0, map_size, change_per_metre),
+                    spanned_by_texel(canonical, 1, map_size, change_per_metre));
 }
 
 // 1 / w on the axis of a spot's map where depth is 0 and where it is 1: on the axis depth = A - k / w.
@@ -240,8 +249,8 @@ template <class T>
         T const at_near_end = glm::length(lean), at_far_end = glm::length(lean - w_row);
         T const across = at_near_end > at_far_end ? at_near_end : at_far_end;
         MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, across, options);
-        // A texel in metres grows as w and depth a metre falls as 1 / w: of a bias in texels the two cancel.
-        bias.constant += flat_texels * detail::steepest_texel(canonical, map_size, gain);
+        // A texel in metres grows as w and depth a metre falls as 1 / w: in a bias in texels the two cancel.
+        bias.constant += flat_texels * detail::flattest_texel(canonical, map_size, gain);
         bias.per_inverse_w += gain * metres;
         if (detail::is_affine(canonical)) {
             bias.constant += bias.per_inverse_w;
@@ -255,7 +264,7 @@ template <class T>
     MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, at_near_end, at_near_end, options);
     // Here depth a metre falls as 1 / w^2, so a texel's depth falls as 1 / w from what it is at the near end.
     if (ends.nearest > T(0))
-        bias.per_inverse_w += flat_texels * detail::steepest_texel(canonical, map_size, at_near_end) / ends.nearest;
+        bias.per_inverse_w += flat_texels * detail::flattest_texel(canonical, map_size, at_near_end) / ends.nearest;
     T const curve = gain * w_per_metre * metres;
     bias.constant -= curve * ends.nearest * ends.farthest;
     bias.per_inverse_w += curve * (ends.nearest + ends.farthest);

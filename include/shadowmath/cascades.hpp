@@ -7,12 +7,12 @@
 //                                                                   tight    light-space box: up to twice the texels,
 //                                                                            and shadow edges crawl under motion
 //
-// Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own, so a
-// renderer that needs another order calls them itself.
+// Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own,
+// so a renderer that needs another order calls them itself.
 //
 // Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
-// inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable fit
-// is the minimal sphere, and its grid has integer origins.
+// inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable
+// fit is the minimal sphere, and its grid has integer origins.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -39,31 +39,31 @@ enum class CascadeFit : std::uint8_t { stable, tight };
 
 template <class T>
 struct CascadeOptions {
-    int count = 4;                      // maps, 1 to max_splits
-    int map_size = 2048;                // texels along one side of each
+    int count = 4;        // maps, 1 to max_splits
+    int map_size = 2048;  // texels along one side of each
     CascadeFit fit = CascadeFit::stable;
-    T lambda = T(0.5);                  // of the practical splits: 1 logarithmic, 0 uniform
-    T first_split_end = T(0);           // metres of eye depth at which the first split ends; 0: wherever lambda puts it
-    T shadow_distance = T(0);           // metres of eye depth up to which shadows are wanted; 0: the view's far distance
-    T blend = T(0.1);                   // fraction of each slice that fades into the next; 0: hard seams
-    int filter_radius = 1;              // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
-    bool pancake = false;               // true: near plane at the slice, and the renderer turns depth clamp ON
-    ClipSpace clip = gl_clip;           // the convention of the pass that draws the maps
+    T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
+    T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
+    T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
+    T blend = T(0.1);          // fraction of each slice that fades into the next; 0: hard seams
+    int filter_radius = 1;     // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
+    bool pancake = false;      // true: near plane at the slice, and the renderer turns depth clamp ON
+    ClipSpace clip = gl_clip;  // the convention of the pass that draws the maps
 };
 
 template <class T>
 struct Cascade {
     ShadowMap<T> map;
-    SliceRange<T> range;                // metres of eye depth that it serves
-    T texel_metres = T(0);              // across the light; of a spot, at the far end of its range
-    T depth_metres = T(0);              // along the light, from depth 0 to depth 1
+    SliceRange<T> range;    // metres of eye depth that it serves
+    T texel_metres = T(0);  // across the light; of a spot, at the far end of its range
+    T depth_metres = T(0);  // along the light, from depth 0 to depth 1
 };
 
 template <class T>
 struct Cascades {
     Cascade<T> at[max_splits];
-    int count = 0;                      // 0: nothing to draw, everything lit
-    Faults faults;                      // of the inputs, and of every map
+    int count = 0;  // 0: nothing to draw, everything lit
+    Faults faults;  // of the inputs, and of every map
 
     [[nodiscard]] Cascade<T> const* begin() const noexcept { return at; }
     [[nodiscard]] Cascade<T> const* end() const noexcept { return at + count; }
@@ -135,10 +135,10 @@ inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Ligh
 
 }  // namespace detail
 
-// Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its slice,
-// filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that map.
-// With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera does.
-// `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault.
+// Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its
+// slice, filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that
+// map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
+// does. `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault.
 template <class T>
 [[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
                                               Aabb<T> const& receivers, CascadeOptions<T> const& options) noexcept {

@@ -7,8 +7,8 @@
 //   canonical   what shadowmath computes in before the last step: depth 0 at the near end, 1 at the far end, y up.
 //   clip        what the API wants: clip_from_canonical(clip) * canonical_from_world.
 //
-// Choose by the pass that DRAWS THE MAP, not by the pass that draws the screen. Reversed depth: take a named value and set
-// `depth` to DepthOrder::one_to_zero; clear to far_depth(clip) and test with "greater".
+// Choose by the pass that DRAWS THE MAP, not by the pass that draws the screen. Reversed depth: take a named value and
+// set `depth` to DepthOrder::one_to_zero; clear to far_depth(clip) and test with "greater".
 #pragma once
 
 #include <shadowmath/config.hpp>

@@ -3,7 +3,8 @@
 // The one place where GLM comes in, the names of its types, and the assertion.
 //
 // GLM's macros may be set in any way: shadowmath calls nothing whose meaning depends on them.
-// To replace the assertion, put a header <shadowmath_user_config.hpp> that defines SHADOWMATH_ASSERT on the include path.
+// To replace the assertion, put a header <shadowmath_user_config.hpp> that defines SHADOWMATH_ASSERT on the include
+// path.
 #pragma once
 
 #include <glm/glm.hpp>

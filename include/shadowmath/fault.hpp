@@ -2,8 +2,8 @@
 //
 // What was wrong with the data, and which fallback was taken: a set of bits inside every result.
 //
-// Data (whatever a level, a configuration file, a window or a user can produce) never aborts and never poisons. A result
-// says `visible` when its matrix serves something; `faults` says why not, or what was mended on the way.
+// Data (whatever a level, a configuration file, a window or a user can produce) never aborts and never poisons. A
+// result says `visible` when its matrix serves something; `faults` says why not, or what was mended on the way.
 // A result may be visible with faults (mended), and invisible without any (there was simply nothing to see).
 #pragma once
 

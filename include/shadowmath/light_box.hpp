@@ -2,8 +2,8 @@
 //
 // What every fit for a directional light gives: a box in light space, and the one matrix that makes of it.
 //
-// fit_sphere and fit_box choose its sides, depth_range its depth, texel_grid its position. The three do not know of each
-// other; the box is all that passes between them.
+// fit_sphere and fit_box choose its sides, depth_range its depth, texel_grid its position. The three do not know of
+// each other; the box is all that passes between them.
 #pragma once
 
 #include <shadowmath/clip_space.hpp>
@@ -17,10 +17,10 @@ inline namespace v0 {
 template <class T>
 struct LightBox {
     LightBasis<T> basis;
-    Vec2<T> lo{T(-1)};       // sides in light space, metres from the world origin
+    Vec2<T> lo{T(-1)};  // sides in light space, metres from the world origin
     Vec2<T> hi{T(1)};
-    T depth_lo = T(0);       // along the light, metres from the world origin: 0 of the map
-    T depth_hi = T(1);       // 1 of the map
+    T depth_lo = T(0);  // along the light, metres from the world origin: 0 of the map
+    T depth_hi = T(1);  // 1 of the map
 };
 
 // Metres that one texel covers across the light, in x and y; of a map without texels, as if it had one.

@@ -40,13 +40,13 @@ struct MapRows {
     Vec4<T> x;
     Vec4<T> y;
     Vec4<T> w;
-    Vec4<T> along;           // along . source = 1: grows with the light, in any unit
-    Vec4<T> source;          // the light itself, homogeneous and relative to the eye
-    bool parallel = true;    // a sun: w is the same all along a light ray
+    Vec4<T> along;                                     // along . source = 1: grows with the light, in any unit
+    Vec4<T> source;                                    // the light itself, homogeneous and relative to the eye
+    bool parallel = true;                              // a sun: w is the same all along a light ray
     T along_floor = std::numeric_limits<T>::lowest();  // casters below are cut: keeps them off a spot's position
-    T w_min = T(0);          // > 0; receivers at or below are not the map's
-    T least_width = T(0);    // of the region, in units of x / w and y / w: one texel, when the receivers are a point
-    bool crop = true;        // false: the region is [-1, 1]^2 as it is
+    T w_min = T(0);                                    // > 0; receivers at or below are not the map's
+    T least_width = T(0);  // of the region, in units of x / w and y / w: one texel, when the receivers are a point
+    bool crop = true;      // false: the region is [-1, 1]^2 as it is
 };
 
 // What every technique asks of its inputs. The map goes on only where `stop` says no.
@@ -168,10 +168,9 @@ template <class T>
     rows.y = zoom(rows.y, region.lo.y, region.hi.y);
 
     T const to_light = rows.parallel ? T(0) : glm::length(Vec3<T>(rows.source));
-    ConvexBody<T> const shaft =
-        detail::casters_in(rows, eye, casters, T(1024) * radius + T(2) * to_light,
-                           along.hi + T(1e-3) * (along.hi - along.lo) +
-                               T(64) * eps * glm::max(std::abs(along.lo), std::abs(along.hi)));
+    ConvexBody<T> const shaft = detail::casters_in(
+        rows, eye, casters, T(1024) * radius + T(2) * to_light,
+        along.hi + T(1e-3) * (along.hi - along.lo) + T(64) * eps * glm::max(std::abs(along.lo), std::abs(along.hi)));
     if (shaft.edge_count == 0) return map;
     for_each_vertex(shaft, [&](Vec3<T> const& p) { along.lo = glm::min(along.lo, detail::value(rows.along, p)); });
     // A thousandth of room at both ends, and a depth of at least some ulps where everything lies at one.

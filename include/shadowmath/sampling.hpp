@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which map a point is looked up in, and what its shadow does to its colour: what a receiver shader decides, on the CPU.
+// Which map a point is looked up in, and what its shadow does to its colour: what a receiver shader decides, on the
+// CPU.
 //
 //   by_depth   the slice of the view that the point's eye depth falls into, fading into the next one. For cascades.
 //   by_map     the first map that holds the point, kernel included. Maps stand in order of preference, so this is also

@@ -10,7 +10,8 @@
 //
 // Source: Zhang, Sun, Nyman, "Parallel-Split Shadow Maps on Programmable GPUs", GPU Gems 3, chapter 10.1 (2007).
 // Traps met in tutorials that retell it, each with the right value:
-//   - lambda weights the LOGARITHM here and in the chapter; some code weights the uniform scheme. They agree only at 1/2.
+//   - lambda weights the LOGARITHM here and in the chapter; some code weights the uniform scheme. They agree only at
+//     1/2.
 //   - i/m in integers is 0 until i = m: every split lands on n.
 //   - m splits have m + 1 planes. n = 1, f = 1000, m = 4, lambda = 1/2 gives
 //     1, 128.18670662595, 266.06138830084, 464.03897050195, 1000 (not 128.185, 266.05, 463.625).
@@ -81,10 +82,10 @@ template <class T>
 
 }  // namespace detail
 
-// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0 uniform.
-// z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and no fault).
-// Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at 2^-20 of z_far
-// (near_clamped).
+// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0
+// uniform. z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and
+// no fault). Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at
+// 2^-20 of z_far (near_clamped).
 template <class T>
 [[nodiscard]] inline Splits<T> practical_splits(T z_near, T z_far, int count, T lambda = T(0.5)) noexcept {
     Splits<T> splits = detail::open_splits(z_near, z_far, count);
@@ -114,8 +115,8 @@ template <class T>
     return practical_splits(z_near, z_far, count, T(1));
 }
 
-// As practical_splits, with plane[1] = first_end exactly. A first_end outside (z_near, z_far) is clamped_option, and the
-// splits are practical throughout.
+// As practical_splits, with plane[1] = first_end exactly. A first_end outside (z_near, z_far) is clamped_option, and
+// the splits are practical throughout.
 template <class T>
 [[nodiscard]] inline Splits<T> pinned_splits(T z_near, T z_far, int count, T first_end, T lambda = T(0.5)) noexcept {
     bool const numbers = all_finite(&z_near, 1) && all_finite(&z_far, 1) && all_finite(&first_end, 1);
@@ -135,8 +136,8 @@ template <class T>
     return splits;
 }
 
-// The caller's own inner planes, metres, increasing: `planes` holds count - 1 values. Those not inside (z_near, z_far) or
-// not above their forerunner are left out (count_clamped).
+// The caller's own inner planes, metres, increasing: `planes` holds count - 1 values. Those not inside (z_near, z_far)
+// or not above their forerunner are left out (count_clamped).
 template <class T>
 [[nodiscard]] inline Splits<T> explicit_splits(T z_near, T z_far, T const* planes, int count) noexcept {
     SHADOWMATH_ASSERT(planes != nullptr || count <= 1, "explicit_splits needs count - 1 planes");

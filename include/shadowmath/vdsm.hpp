@@ -77,13 +77,13 @@ template <class T>
 template <class T>
 struct VdsmOptions {
     int map_size = 1024;
-    T margin_texels = T(2);   // of the map kept free on each side, for the filter
-    bool crop = true;         // zoom in on what the receivers need; false: the whole screen, as it is
-    T w_min = T(0);           // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
-    T reach = T(2);           // how far beyond the screen the map goes, in half screens: receivers off the plane may
-                              // project there; those beyond are not the map's. >= 1
-    T least_sine = T(0.05);   // of the angle between the plane and a sun, or an orthographic view: below it,
-                              // invalid_plane. >= 1e-3
+    T margin_texels = T(2);  // of the map kept free on each side, for the filter
+    bool crop = true;        // zoom in on what the receivers need; false: the whole screen, as it is
+    T w_min = T(0);          // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
+    T reach = T(2);          // how far beyond the screen the map goes, in half screens: receivers off the plane may
+                             // project there; those beyond are not the map's. >= 1
+    T least_sine = T(0.05);  // of the angle between the plane and a sun, or an orthographic view: below it,
+                             // invalid_plane. >= 1e-3
 };
 
 // One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What the eye sees: a pose, four sides, and a range of depth. Perspective, off-centre, jittered, stereo and orthographic
-// cameras are all one ViewVolume, and so is every slice of one.
+// What the eye sees: a pose, four sides, and a range of depth. Perspective, off-centre, jittered, stereo and
+// orthographic cameras are all one ViewVolume, and so is every slice of one.
 //
 // Corners come from the sides, never from the inverse of a view-projection matrix: at far/near = 1e6 the float inverse
-// loses the far corners altogether, while the sides keep them to 4 ulp. So near and far distances are inputs; only the sides
-// can be read from a projection matrix (view_from_projection).
+// loses the far corners altogether, while the sides keep them to 4 ulp. So near and far distances are inputs; only the
+// sides can be read from a projection matrix (view_from_projection).
 //
 //   pose.up    right side = right * depth          All axes are unit vectors in world space. Handedness of the world
 //      |   /                                       never matters: "depth" grows along pose.forward.
@@ -29,10 +29,10 @@ inline namespace v0 {
 
 template <class T>
 struct Pose {
-    Vec3<T> position{T(0)};                   // world
-    Vec3<T> right{T(1), T(0), T(0)};          // world, unit, orthogonal to the other two
+    Vec3<T> position{T(0)};           // world
+    Vec3<T> right{T(1), T(0), T(0)};  // world, unit, orthogonal to the other two
     Vec3<T> up{T(0), T(1), T(0)};
-    Vec3<T> forward{T(0), T(0), T(-1)};       // the viewing direction
+    Vec3<T> forward{T(0), T(0), T(-1)};  // the viewing direction
 };
 
 enum class ViewKind : std::uint8_t { perspective, orthographic };
@@ -40,18 +40,18 @@ enum class ViewKind : std::uint8_t { perspective, orthographic };
 template <class T>
 struct ViewVolume {
     Pose<T> pose;
-    T left = T(-1);                           // sides: metres per metre of depth (perspective), or metres (orthographic)
+    T left = T(-1);  // sides: metres per metre of depth (perspective), or metres (orthographic)
     T right = T(1);
     T bottom = T(-1);
     T top = T(1);
-    T z_near = T(0.1);                        // metres along pose.forward
-    T z_far = T(100);                         // metres; may be infinite for a camera, not for a slice
+    T z_near = T(0.1);  // metres along pose.forward
+    T z_far = T(100);   // metres; may be infinite for a camera, not for a slice
     ViewKind kind = ViewKind::perspective;
 };
 
 // Looks from `position` along `forward`; `rough_up` only chooses the roll. Orthonormal for every input: where
-// forward is (nearly) parallel to rough_up, the world axis least along forward takes its place; a forward that is zero or
-// not finite becomes -z.
+// forward is (nearly) parallel to rough_up, the world axis least along forward takes its place; a forward that is zero
+// or not finite becomes -z.
 template <class T>
 [[nodiscard]] inline Pose<T> pose_looking(Vec3<T> const& position, Vec3<T> const& forward,
                                           Vec3<T> const& rough_up) noexcept {
@@ -110,7 +110,8 @@ template <class T>
     view.left = view.right = view.bottom = view.top = T(0);
     T const x_scale = clip_from_view[0][0], y_scale = clip_from_view[1][1];
     if (!all_finite(clip_from_view) || x_scale == T(0) || y_scale == T(0)) return view;
-    // Perspective: w = h * z_view, so a side is where scale * side + offset * sign(h) = +-|h|. Orthographic: w = m[3][3].
+    // Perspective: w = h * z_view, so a side is where scale * side + offset * sign(h) = +-|h|. Orthographic: w =
+    // m[3][3].
     T const h = clip_from_view[2][3];
     view.kind = h == T(0) ? ViewKind::orthographic : ViewKind::perspective;
     bool const flat = view.kind == ViewKind::orthographic;
@@ -151,7 +152,8 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Pose<T> orthonormalized(Pose<T> const& pose) noexcept {
     Normalized<T> const forward = safe_normalize(pose.forward);
-    Normalized<T> const right = safe_normalize(pose.right - forward.direction * glm::dot(forward.direction, pose.right));
+    Normalized<T> const right =
+        safe_normalize(pose.right - forward.direction * glm::dot(forward.direction, pose.right));
     if (!forward.ok || !right.ok) return pose;
     Pose<T> mended = pose;
     mended.forward = forward.direction;
@@ -187,8 +189,8 @@ template <class T>
 }
 
 // The eye's own matrix, for drawing the receivers and for measuring footprints. Written by rows: right, up and depth of
-// a point against the pose, so that no handedness enters. An infinite z_far is exact. A view with faults, or too far from
-// the origin for its scalar type, sees nothing.
+// a point against the pose, so that no handedness enters. An infinite z_far is exact. A view with faults, or too far
+// from the origin for its scalar type, sees nothing.
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(ViewVolume<T> const& view, ClipSpace clip) noexcept {
     if (faults_of(view).any()) return nowhere<T>();

@@ -155,8 +155,8 @@ template <class T>
         // Nearer than 2^-20 of the far distance no ratio of depths means anything.
         T const nearest = in.view.z_far / T(1 << 20);
         if (!(in.view.z_near > T(0))) map.faults |= Fault::near_clamped;
-        inverse_centre = strength * axes.fade *
-                         optimal_inverse_centre(glm::max(eye_metres.lo, nearest), y.hi - y.lo, axes.sine);
+        inverse_centre =
+            strength * axes.fade * optimal_inverse_centre(glm::max(eye_metres.lo, nearest), y.hi - y.lo, axes.sine);
     }
     MapRows<T> rows = perspective_warp(axes.basis, y.lo, inverse_centre);
     rows.least_width = glm::max(x.hi - x.lo, y.hi - y.lo) / T(options.map_size);

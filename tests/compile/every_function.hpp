@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Every public function template of shadowmath, instantiated: a template that nobody calls is checked for little more than
-// its brackets. Header by header in alphabetical order; where a name is overloaded, or takes a callable, it is called.
-// A test reads the headers and fails when one of their functions is missing here.
+// Every public function template of shadowmath, instantiated: a template that nobody calls is checked for little more
+// than its brackets. Header by header in alphabetical order; where a name is overloaded, or takes a callable, it is
+// called. A test reads the headers and fails when one of their functions is missing here.
 #pragma once
 
 #include "every_header.hpp"
@@ -42,11 +42,12 @@ int every_overloaded_function() noexcept {
 template <class T>
 int every_function() noexcept {
     int count = every_overloaded_function<T>();
-    count += keep(&closed_form::is_range<T>, &closed_form::is_positive<T>, &closed_form::pixels_per_texel<T>,
-                  &closed_form::uniform_along<T>, &closed_form::uniform_across<T>, &closed_form::logarithmic_along<T>,
-                  &closed_form::warped_along<T>, &closed_form::warped_across<T>, &closed_form::warped_worst<T>,
-                  &closed_form::best_centre<T>, &closed_form::split_uniform_worst<T>, &closed_form::split_warped_worst<T>,
-                  &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
+    count +=
+        keep(&closed_form::is_range<T>, &closed_form::is_positive<T>, &closed_form::pixels_per_texel<T>,
+             &closed_form::uniform_along<T>, &closed_form::uniform_across<T>, &closed_form::logarithmic_along<T>,
+             &closed_form::warped_along<T>, &closed_form::warped_across<T>, &closed_form::warped_worst<T>,
+             &closed_form::best_centre<T>, &closed_form::split_uniform_worst<T>, &closed_form::split_warped_worst<T>,
+             &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
     count += keep(&slope<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
                   &normal_offset_metres<T>, &bias_for<T>, &bias_at<T>);
     count += keep(&bounds_of<T>);

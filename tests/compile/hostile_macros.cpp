@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A translation unit after windows.h and Xlib: C++17, no exceptions, no RTTI, and the macros that those headers leave behind.
+// A translation unit after windows.h and Xlib: C++17, no exceptions, no RTTI, and the macros that those headers leave
+// behind.
 
 #define near
 #define far

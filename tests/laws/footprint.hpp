@@ -22,14 +22,14 @@ template <class T>
     return std::abs(a.major - b.major) <= relative * a.major && std::abs(a.minor - b.minor) <= relative * a.major;
 }
 
-// d(eye pixels) / d(map texels) on the plane, measured by moving the point: columns are what a texel in x and in y gives.
+// d(eye pixels) / d(map texels) on the plane, measured by moving the point: columns are what a texel in x and in y
+// gives.
 template <class T>
 [[nodiscard]] glm::mat<2, 2, long double, glm::defaultp> measured_jacobian(Mat4<T> const& eye,
                                                                            Vec2<T> const& eye_pixels,
                                                                            Mat4<T> const& map, T map_texels,
                                                                            Vec3<T> const& point,
-                                                                           Tangents<T> const& plane,
-                                                                           long double step) {
+                                                                           Tangents<T> const& plane, long double step) {
     using Mat2 = glm::mat<2, 2, long double, glm::defaultp>;
     using V = Vec2<long double>;
     auto const gains = [&](Mat4<T> const& matrix, V size) {

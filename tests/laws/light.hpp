@@ -26,7 +26,8 @@ template <class T>
 }
 
 // A small turn of the light turns the axes little. Carrying them along the shortest turn from -y adds tan(angle / 2)
-// times the turn, where `angle` is the way from -y: no more than 2 in all up to a right angle, without bound only at +y.
+// times the turn, where `angle` is the way from -y: no more than 2 in all up to a right angle, without bound only at
+// +y.
 template <class T>
 [[nodiscard]] bool follows_the_light(Vec3<T> const& travel, Vec3<T> const& turned) {
     LightBasis<T> const a = light_basis(travel), b = light_basis(turned);
@@ -36,14 +37,15 @@ template <class T>
         return d.y <= T(0) ? across / (1 - static_cast<Real>(d.y)) : (1 + static_cast<Real>(d.y)) / across;
     };
     Real const steepest = std::fmax(slope(travel), slope(turned));
-    // Twice the bound: the turn is finite, and the slope between its ends may exceed that at both. Plus the axes' own 4 ulp.
+    // Twice the bound: the turn is finite, and the slope between its ends may exceed that at both. Plus the axes' own 4
+    // ulp.
     Real const allowed = 2 * (1 + steepest) * turn + 16 * static_cast<Real>(std::numeric_limits<T>::epsilon());
     return glm::length(Vec3<Real>(a.x) - Vec3<Real>(b.x)) <= allowed &&
            glm::length(Vec3<Real>(a.y) - Vec3<Real>(b.y)) <= allowed;
 }
 
-// The one homogeneous point stands for every ray: p + t * travel of a sun keeps its place across the light, and a spot's
-// own position is where all its rays meet.
+// The one homogeneous point stands for every ray: p + t * travel of a sun keeps its place across the light, and a
+// spot's own position is where all its rays meet.
 template <class T>
 [[nodiscard]] bool is_where_its_rays_meet(Light<T> const& light) {
     Vec4<T> const l = homogeneous(light);
@@ -51,7 +53,8 @@ template <class T>
     return Vec3<T>(l) / l.w == light.position && l.w < T(0);
 }
 
-// Whatever it was made from, every number in it is one, and a light without the three fatal faults has a unit direction.
+// Whatever it was made from, every number in it is one, and a light without the three fatal faults has a unit
+// direction.
 template <class T>
 [[nodiscard]] bool is_usable_or_says_why(Light<T> const& light) {
     bool const numbers = all_finite(light.direction) && all_finite(light.position) &&

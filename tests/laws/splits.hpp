@@ -63,7 +63,8 @@ template <class T>
     return true;
 }
 
-// The world in other units: a factor of two is exact in every plane but for the power, whose argument is the same ratio.
+// The world in other units: a factor of two is exact in every plane but for the power, whose argument is the same
+// ratio.
 template <class T>
 [[nodiscard]] bool is_scaled_by_two(Splits<T> const& splits, Splits<T> const& doubled) {
     if (splits.count != doubled.count) return false;

@@ -51,8 +51,8 @@ template <class T>
 }
 
 // The eye's matrix puts the eight corners on those of the clip volume: +-1, +-1, and the near and far depth of `clip`.
-// The matrix knows positions only to an ulp of the largest distance from the origin, |p| + |eye|. Across the view that is
-// divided by the width there; along it, by how fast depth grows there.
+// The matrix knows positions only to an ulp of the largest distance from the origin, |p| + |eye|. Across the view that
+// is divided by the width there; along it, by how fast depth grows there.
 template <class T>
 [[nodiscard]] bool fills_the_clip_volume(ViewVolume<T> const& view, ClipSpace clip) {
     Mat4<Real> const canonical_from_world = canonical_from_clip<Real>(clip) * Mat4<Real>(clip_from_world(view, clip));
@@ -87,8 +87,8 @@ template <class T>
     return true;
 }
 
-// The same four sides and kind. Each side comes from a sum as large as the largest side: 16 roundings, most of them those
-// of the matrix that was read.
+// The same four sides and kind. Each side comes from a sum as large as the largest side: 16 roundings, most of them
+// those of the matrix that was read.
 template <class T>
 [[nodiscard]] bool has_the_sides_of(ViewVolume<T> const& read, ViewVolume<T> const& view) {
     T const wide = std::fmax(std::abs(view.left), std::abs(view.right));

@@ -164,7 +164,8 @@ TEST(BiasProperty, ALitPlaneNeverShadowsItselfWhateverKernelMapAndConvention) {
     }));
 }
 
-// The table's amount is not merely enough: with less than the kernel's reach the same planes shadow themselves somewhere.
+// The table's amount is not merely enough: with less than the kernel's reach the same planes shadow themselves
+// somewhere.
 TEST(BiasProperty, HalfATexelLessThanTheKernelNeedsIsTooLittle) {
     EXPECT_TRUE(rc::check([] {
         LitPlane const p = *lit_plane();

@@ -18,7 +18,9 @@ struct Depths {
     [[nodiscard]] double operator()(int x, int y) const { return at[static_cast<std::size_t>(y * side + x)]; }
 };
 
-void showValue(Depths const& depths, std::ostream& out) { out << "depths, the first " << depths.at[0]; }
+void showValue(Depths const& depths, std::ostream& out) {
+    out << "depths, the first " << depths.at[0];
+}
 
 rc::Gen<Depths> depths() {
     return rc::gen::exec([] {
@@ -117,8 +119,8 @@ TEST(FilterProperty, ChangesByNoMoreThanTheStripThatTheBoxSweeps) {
         moved.texel.y += *centred<double>(0.3);
         double const sweep =
             (std::abs(moved.texel.x - r.texel.x) + std::abs(moved.texel.y - r.texel.y)) / (2.0 * radius);
-        double const change = filtered(r, side, plain, {radius, true}, map) -
-                              filtered(moved, side, plain, {radius, true}, map);
+        double const change =
+            filtered(r, side, plain, {radius, true}, map) - filtered(moved, side, plain, {radius, true}, map);
         RC_ASSERT(std::abs(change) <= sweep + 1e-13);
     }));
 }

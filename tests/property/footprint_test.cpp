@@ -84,8 +84,8 @@ TYPED_TEST(AnyFootprint, OfAnythingAtAllIsFiniteOrderedAndWithinItsLimit) {
     }));
 }
 
-// Two numbers of a 2x2 matrix fix its singular values: their product is the determinant, their squares sum to the squares
-// of its entries. Differences over 1e-6 m of places with 1e3 m in them leave 1e-10 of long double.
+// Two numbers of a 2x2 matrix fix its singular values: their product is the determinant, their squares sum to the
+// squares of its entries. Differences over 1e-6 m of places with 1e3 m in them leave 1e-10 of long double.
 TEST(FootprintProperty, IsTheSingularValuesOfHowAMoveByTexelsMovesThePicture) {
     EXPECT_TRUE(rc::check([] {
         Sight const s = *sight();
@@ -117,8 +117,8 @@ TEST(FootprintProperty, KnowsNothingOfConventionsOrOfTheNormalsLengthAndSign) {
         Sight const s = *sight();
         Sight other = s;
         ClipSpace const clip = *clip_space();
-        other.any.map.clip_from_world = in_convention(
-            canonical_from_clip<double>(s.any.map.clip) * s.any.map.clip_from_world, clip);
+        other.any.map.clip_from_world =
+            in_convention(canonical_from_clip<double>(s.any.map.clip) * s.any.map.clip_from_world, clip);
         other.normal = s.normal * -37.0;
         RC_ASSERT(laws::same(s.measure(), other.measure(), 1e-9));
     }));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A shadow map of any of the three kinds that exist, made from first principles and not by the fits: affine, warped by a
-// perspective across the light, or of a spot; in any convention. With it the light that it is a map of.
+// A shadow map of any of the three kinds that exist, made from first principles and not by the fits: affine, warped by
+// a perspective across the light, or of a spot; in any convention. With it the light that it is a map of.
 #pragma once
 
 #include "gen.hpp"

@@ -69,7 +69,8 @@ rc::Gen<T> centred(T radius) {
     });
 }
 
-// Zeros, denormals, the ends of the range, neighbours of powers of two, infinities, NaN; any bit pattern; any magnitude.
+// Zeros, denormals, the ends of the range, neighbours of powers of two, infinities, NaN; any bit pattern; any
+// magnitude.
 template <class T>
 rc::Gen<T> nasty() {
     using Limits = std::numeric_limits<T>;
@@ -160,8 +161,8 @@ rc::Gen<Pose<T>> pose(T radius) {
 template <class T>
 inline constexpr T world_radius = sizeof(T) == 4 ? T(1e3) : T(1e7);
 
-// No faults, z_far finite. Symmetric, off-centre (even past the axis) and orthographic; from 1e-3 to 3.1 radians wide; far / near
-// from 1.01 to 1e6 (float) or 1e9, far at most 1e5 or 1e8 m.
+// No faults, z_far finite. Symmetric, off-centre (even past the axis) and orthographic; from 1e-3 to 3.1 radians wide;
+// far / near from 1.01 to 1e6 (float) or 1e9, far at most 1e5 or 1e8 m.
 template <class T>
 rc::Gen<ViewVolume<T>> view_volume() {
     return rc::gen::exec([] {

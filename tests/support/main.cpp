@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs all tests. Properties use the same seed in every run, printed here; set RC_PARAMS to choose another, or more cases:
+// Runs all tests. Properties use the same seed in every run, printed here; set RC_PARAMS to choose another, or more
+// cases:
 //   RC_PARAMS="seed=7 max_success=20000" ./shadowmath_property
 
 #include "watched.hpp"

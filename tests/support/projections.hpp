@@ -30,7 +30,8 @@ template <class T>
         clip_from_view = make(view.left, view.right, view.bottom, view.top, first, second);
     } else {
         // frustum wants its sides where its first distance is; the sides enter divided by it again.
-        // NOTE: glm 0.9.9.8's frustumLH has the wrong sign in its third column: off-centre, it does not mirror frustumRH.
+        // NOTE: glm 0.9.9.8's frustumLH has the wrong sign in its third column: off-centre, it does not mirror
+        // frustumRH.
         clip_from_view =
             (full ? glm::frustumRH_NO<T> : glm::frustumRH_ZO<T>)(view.left * first, view.right * first,
                                                                  view.bottom * first, view.top * first, first, second);

@@ -18,7 +18,8 @@ void expect_near_relative(double value, double wanted, double relative = 1e-12) 
 
 TEST(Aliasing, HasThePublishedWorstCasesForARangeOfAThousand) {
     expect_near_relative(uniform_along(1.0, 1.0, 1000.0), 999);
-    expect_near_relative(warped_worst(1.0, 1000.0, best_centre(1.0, 1000.0)), std::sqrt(1000.0) - 1 / std::sqrt(1000.0));
+    expect_near_relative(warped_worst(1.0, 1000.0, best_centre(1.0, 1000.0)),
+                         std::sqrt(1000.0) - 1 / std::sqrt(1000.0));
     expect_near_relative(logarithmic_along(1.0, 1000.0), 6.907755278982137);
     EXPECT_NEAR(split_uniform_worst(1.0, 1000.0, 4), 4.623, 5e-4);
     EXPECT_NEAR(split_warped_worst(1.0, 1000.0, 4), 1.950, 5e-4);

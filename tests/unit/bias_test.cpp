@@ -51,8 +51,7 @@ ShadowMap<double> spot_map(double z_near, double z_far) {
 TEST(Slope, OfALeaningPlaneIsItsTangentTimesTheTexelOverTheDepth) {
     // y rises by 0.5 a metre of x: depth falls by 0.5 m a metre. A texel of 100 is 0.1 m wide; the map 40 m deep.
     Overhead const overhead;
-    DepthSlope<double> const s =
-        slope(overhead.map, 100, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0);
+    DepthSlope<double> const s = slope(overhead.map, 100, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0);
     EXPECT_NEAR(s.x, -0.5 * 0.1 / 40, 1e-15);
     EXPECT_NEAR(s.y, 0.0, 1e-15);
 }
@@ -81,11 +80,11 @@ TEST(Slope, OfAPlaneThatTheLightGrazesIsTheLimit) {
 TEST(Slope, WithoutANormalOrAMapIsZero) {
     Overhead const overhead;
     Vec3<double> const up(0, 1, 0);
-    for (auto const& s : {slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0), 1.0),
-                          slope(overhead.map, 0, Vec3<double>(0), Vec3<double>(1, 1, 1), 1.0),
-                          slope(spot_map(1, 10), 100, Vec3<double>(0, 5, 0), Vec3<double>(1, 1, 1), 1.0),
-                          slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(1, 1, 1),
-                                std::numeric_limits<double>::quiet_NaN())}) {
+    for (auto const& s :
+         {slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0), 1.0),
+          slope(overhead.map, 0, Vec3<double>(0), Vec3<double>(1, 1, 1), 1.0),
+          slope(spot_map(1, 10), 100, Vec3<double>(0, 5, 0), Vec3<double>(1, 1, 1), 1.0),
+          slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(1, 1, 1), std::numeric_limits<double>::quiet_NaN())}) {
         EXPECT_EQ(s.x, 0.0);
         EXPECT_EQ(s.y, 0.0);
     }

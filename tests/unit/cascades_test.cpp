@@ -39,8 +39,7 @@ TYPED_TEST(CascadesOf, DefaultsGiveFourVisibleMapsWithoutAFault) {
 
 TYPED_TEST(CascadesOf, EachMapIsCoarserThanTheOneBefore) {
     auto const cascades = this->fitted();
-    for (int i = 1; i < cascades.count; ++i)
-        EXPECT_GT(cascades.at[i].texel_metres, cascades.at[i - 1].texel_metres);
+    for (int i = 1; i < cascades.count; ++i) EXPECT_GT(cascades.at[i].texel_metres, cascades.at[i - 1].texel_metres);
 }
 
 TYPED_TEST(CascadesOf, TightMapsHaveSmallerTexelsThanStableOnes) {
@@ -132,9 +131,9 @@ TYPED_TEST(CascadesOf, OptionsOutsideTheirRangesAreClampedAndSaid) {
     using T = TypeParam;
     for (T const bad : {T(-1), T(7), std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
         for (T CascadeOptions<T>::*option : {&CascadeOptions<T>::lambda, &CascadeOptions<T>::blend}) {
-            CascadeOptions<T> options;
-            options.*option = bad;
-            auto const cascades = fit_cascades(this->view, this->sun, this->world, this->world, options);
+            CascadeOptions<T> wrong;
+            wrong.*option = bad;
+            auto const cascades = fit_cascades(this->view, this->sun, this->world, this->world, wrong);
             EXPECT_TRUE(cascades.faults.has(Fault::clamped_option));
             EXPECT_TRUE(laws::well_formed(cascades));
             EXPECT_TRUE(cascades.count == 4 && cascades.at[0].map.visible);
@@ -198,8 +197,7 @@ TEST(Cascades, AreStillInDoubleAMillionMetresAway) {
 }
 
 TEST(Cascades, SayInFloatWhenTheyCannotBeStill) {
-    ViewVolume<float> const view =
-        perspective_view(Pose<float>{glm::vec3(1e6f, 0.0f, 0.0f)}, 1.0f, 1.6f, 0.1f, 100.0f);
+    ViewVolume<float> const view = perspective_view(Pose<float>{glm::vec3(1e6f, 0.0f, 0.0f)}, 1.0f, 1.6f, 0.1f, 100.0f);
     Aabb<float> const world{glm::vec3(-1e7f), glm::vec3(1e7f)};
     auto const cascades =
         fit_cascades(view, directional(glm::vec3(0.3f, -1.0f, 0.2f)), world, world, CascadeOptions<float>{});

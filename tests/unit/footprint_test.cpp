@@ -92,14 +92,14 @@ TEST(Footprint, OfLogarithmicSplitsMeetsTheClosedFormAndIsWorstAtEveryNearEnd) {
 
 // x, y and w of the eye after the slide along the light onto the plane, and any depth.
 TEST(Footprint, OfAViewDependentMapIsOneOnItsPlaneAndTheClosedFormOffIt) {
-    Vec3<double> const normal = glm::normalize(Vec3<double>(0.1, 1, 0.2)), travel =
-        glm::normalize(Vec3<double>(0.5, -1, 0.3));
+    Vec3<double> const normal = glm::normalize(Vec3<double>(0.1, 1, 0.2)),
+                       travel = glm::normalize(Vec3<double>(0.5, -1, 0.3));
     Vec4<double> const plane(normal, 2.0), light(travel, 0.0);
     Mat4<double> slide(1.0);  // I - l p^T / (p . l)
     for (int column = 0; column < 4; ++column) slide[column] -= light * (plane[column] / glm::dot(plane, light));
     Mat4<double> const from_eye = eye() * slide;
-    Mat4<double> const map = from_rows(row(from_eye, 0), row(from_eye, 1), Vec4<double>(0.01 * travel, 0.3),
-                                       row(from_eye, 3));
+    Mat4<double> const map =
+        from_rows(row(from_eye, 0), row(from_eye, 1), Vec4<double>(0.01 * travel, 0.3), row(from_eye, 3));
     Vec2<double> const picture(pixels);
     for (double z : {3.0, 10.0, 40.0}) {
         Vec3<double> on(z, 0, 0.3 * z);
@@ -128,8 +128,7 @@ TEST(Footprint, BehindTheEyeIsNothing) {
 
 TEST(Footprint, IsTheLimitWhereTheMapIsEdgeOnOrDoesNotHoldThePoint) {
     Vec3<double> const point(5, 0, 0), wall(-1, 0, 0);
-    Footprint<double> const edge_on =
-        footprint(eye(), Vec2<double>(pixels), uniform_map(n, f), texels, point, wall);
+    Footprint<double> const edge_on = footprint(eye(), Vec2<double>(pixels), uniform_map(n, f), texels, point, wall);
     EXPECT_EQ(edge_on.major, footprint_limit<double>);
     EXPECT_TRUE(laws::is_footprint(edge_on));
     Footprint<double> const behind = on_axis(warped_map(n) * -1.0, 5.0);
@@ -138,8 +137,8 @@ TEST(Footprint, IsTheLimitWhereTheMapIsEdgeOnOrDoesNotHoldThePoint) {
 }
 
 TEST(Footprint, OfASurfaceThatTheEyeSeesEdgeOnIsALine) {
-    Footprint<double> const line = footprint(eye(), Vec2<double>(pixels), uniform_map(n, f), texels,
-                                             Vec3<double>(5, 0, 0), Vec3<double>(0, 1, 0));
+    Footprint<double> const line =
+        footprint(eye(), Vec2<double>(pixels), uniform_map(n, f), texels, Vec3<double>(5, 0, 0), Vec3<double>(0, 1, 0));
     EXPECT_GT(line.major, 0.1);
     EXPECT_NEAR(line.minor, 0.0, 1e-12);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The rules of the house that a compiler does not see, read from the sources: who includes whom, and what is never called.
+// The rules of the house that a compiler does not see, read from the sources: who includes whom, and what is never
+// called.
 #include <gtest/gtest.h>
 
 #include <filesystem>

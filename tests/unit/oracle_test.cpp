@@ -3,8 +3,8 @@
 #include "oracle/ray_oracle.hpp"
 #include "scenes/mesh_builder.hpp"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -179,8 +179,10 @@ TEST(RayOracle, LeavesOutTrianglesThatAreNotSound) {
     backend::Scene scene = box_over_floor({}, {-1, 1, -1}, {1, 3, 1});
     std::size_t const box = scene.objects[1].first_index;
     for (std::size_t i = box; i < box + scene.objects[1].index_count; i += 3) {
-        if (i % 2 == 0) scene.indices[i] = 0xffffffffu;
-        else scene.vertices[scene.indices[i]].position.x = std::numeric_limits<float>::quiet_NaN();
+        if (i % 2 == 0)
+            scene.indices[i] = 0xffffffffu;
+        else
+            scene.vertices[scene.indices[i]].position.x = std::numeric_limits<float>::quiet_NaN();
     }
     EXPECT_EQ(RayOracle(scene).truth({0, 0, 0}, up, {0, 1, 0, 0}), Truth::lit);
     EXPECT_EQ(RayOracle(backend::Scene{}).truth({0, 0, 0}, up, {0, 1, 0, 0}), Truth::lit) << "nothing casts";

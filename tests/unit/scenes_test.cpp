@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "scenes/scenes.hpp"
 #include "oracle/ray_oracle.hpp"
 #include "scenes/obj.hpp"
 #include "scenes/random.hpp"
-#include "scenes/scenes.hpp"
 
+#include <gtest/gtest.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
@@ -89,7 +89,9 @@ std::string first_flaw(backend::Scene const& scene) {
     return {};
 }
 
-double elevation_degrees(View const& view) { return glm::degrees(std::asin(-view.light_travel.y)); }
+double elevation_degrees(View const& view) {
+    return glm::degrees(std::asin(-view.light_travel.y));
+}
 
 // What a view sees and stands in, by rays.
 struct Sight {
@@ -148,9 +150,8 @@ std::string fault_of(std::string const& text) {
     return {};
 }
 
-std::string const cube =
-    "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+std::string const cube = "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
 
 }  // namespace
 
