@@ -21,6 +21,9 @@ endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion
                     -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    add_compile_options(-Wno-restrict)  # false alarms about "literal" + std::string, GCC bug 105651
+endif()
 
 # Every header compiles alone: the target all_verify_interface_header_sets, which CMake makes, is part of `all` here.
 set_target_properties(shadowmath PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
