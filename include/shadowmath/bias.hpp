@@ -60,8 +60,9 @@ template <class T>
     return {bounded_quotient(s.z * t.y - s.y * t.z, area, limit), bounded_quotient(s.x * t.z - s.z * t.x, area, limit)};
 }
 
-// The slope of the plane across the light: 0 in an affine map; in any other what the map itself adds to the slope of every
-// receiver. No part of it makes a surface shadow itself, as long as each tap is compared with the plane at that tap.
+// The slope of the plane across the light: 0 in an affine map; in any other what the map itself adds to the slope of
+// every receiver. No part of it makes a surface shadow itself, as long as each tap is compared with the plane at that
+// tap.
 template <class T>
 [[nodiscard]] inline DepthSlope<T> lean(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, T limit) noexcept {
     if (!all_finite(map.clip_from_world)) return {};

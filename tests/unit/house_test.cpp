@@ -49,6 +49,22 @@ std::vector<std::string> includes_of(fs::path const& path) {
 
 }  // namespace
 
+TEST(House, TheReadmeShowsCodeThatCompiles) {
+    std::string const readme = text_of(root / "README.md");
+    std::string const open = "```cpp\n";
+    std::size_t const begin = readme.find(open) + open.size(), end = readme.find("```", begin);
+    ASSERT_TRUE(begin >= open.size() && end != std::string::npos);
+    std::istringstream shown(readme.substr(begin, end - begin));
+    std::string const compiled = text_of(root / "tests/compile/readme_example.cpp");
+    std::size_t at = 0;
+    int lines = 0;
+    for (std::string line; std::getline(shown, line); ++lines) {
+        at = compiled.find(line + "\n", at);
+        ASSERT_NE(at, std::string::npos) << "line " << lines + 1 << " of the README's code is not compiled: " << line;
+    }
+    EXPECT_GE(lines, 12);
+}
+
 TEST(House, HeadersIncludeGlmAndLightStandardHeadersOnly) {
     std::set<std::string> const light = {"array",  "cmath",       "cstdint", "cstring",
                                          "limits", "glm/glm.hpp", "cassert", "shadowmath_user_config.hpp"};
