@@ -5,8 +5,6 @@
 #include "backends/gl/objects.hpp"
 #include "backends/pass_check.hpp"
 
-#include "backends/shaders/embedded.hpp"
-
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -74,9 +72,10 @@ struct Resources {
 
 class GlBackend final : public Backend {
 public:
-    explicit GlBackend(std::unique_ptr<Context> context) : context_(std::move(context)) {
+    GlBackend(std::unique_ptr<Context> context, GlShaders shaders) : context_(std::move(context)) {
         Current const current(*context_);
         gl_.emplace([this](char const* name) { return context_->proc(name); });
+        if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
         listen();
         resources_.emplace(*gl_);
         describe_vertices();
@@ -98,7 +97,8 @@ public:
         auto const text = [this](GLenum what) {
             return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
         };
-        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION)};
+        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION),
+                takes_spirv(*gl_, shaders::depth_vert) ? "SPIR-V" : "GLSL"};
     }
 
     void upload(Scene const& scene) override {
@@ -319,8 +319,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Backend> make_gl_backend(GlContextKind kind) {
-    return std::make_unique<GlBackend>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context());
+std::unique_ptr<Backend> make_gl_backend(GlContextKind kind, GlShaders shaders) {
+    return std::make_unique<GlBackend>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context(),
+                                       shaders);
 }
 
 }  // namespace shadowmath::backend
