@@ -25,7 +25,9 @@ struct alignas(256) MapBlock {
 struct alignas(256) FrameBlock {
     FrameConstants frame;
 };
-constexpr VkDeviceSize constants_size = std::max(max_maps * sizeof(MapBlock), 2 * sizeof(FrameBlock));
+// The binding is as wide as the widest block, wherever it begins.
+constexpr VkDeviceSize constants_size = (max_maps - 1) * sizeof(MapBlock) + sizeof(FrameBlock);
+static_assert(constants_size >= 2 * sizeof(FrameBlock));
 
 // Index ranges of objects, one draw call each; neighbours in the index array become one range.
 struct IndexRange {
