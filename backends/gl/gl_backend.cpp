@@ -84,6 +84,7 @@ public:
         gl_->DepthFunc(GL_LESS);
         gl_->Enable(GL_FRAMEBUFFER_SRGB);
         gl_->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        gl_->ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);  // as in Vulkan: rasterisers start their sums from it
     }
 
     ~GlBackend() override {
