@@ -68,6 +68,8 @@ public:
         if (mistake_ == VulkanMistake::leak) Pipelines(device_.get()).sampler.forget();
     }
 
+    ~VulkanBackend() override { vkDeviceWaitIdle(device_.get()); }  // a call that threw may have left work behind
+
     BackendInfo info() const override { return {"vulkan", device_.description(), "SPIR-V"}; }
 
     void upload(Scene const& scene) override {
