@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,6 +23,10 @@ enum class Context { egl, osmesa, vulkan };
 
 [[nodiscard]] inline std::string name_of(Context context) {
     return context == Context::egl ? "egl" : context == Context::osmesa ? "osmesa" : "vulkan";
+}
+
+inline void PrintTo(Context context, std::ostream* out) {
+    *out << name_of(context);
 }
 
 // A test of Vulkan alone starts with: if (!try_vulkan(backend, options)) GTEST_SKIP() << not_tested;

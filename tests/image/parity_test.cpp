@@ -22,6 +22,10 @@ struct Pair {
     std::unique_ptr<Backend> (*open_other)();
 };
 
+void PrintTo(Pair const& pair, std::ostream* out) {
+    *out << pair.name;
+}
+
 std::unique_ptr<Backend> open_vulkan() {
     std::unique_ptr<Backend> backend;
     static_cast<void>(try_vulkan(backend, {.software = true, .validation = true}));

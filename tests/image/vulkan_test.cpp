@@ -20,6 +20,10 @@ struct Seeded {
     char const* reported_as;
 };
 
+void PrintTo(Seeded const& seeded, std::ostream* out) {
+    *out << seeded.name;
+}
+
 class Validation : public testing::TestWithParam<Seeded> {};
 
 INSTANTIATE_TEST_SUITE_P(
