@@ -12,8 +12,8 @@ namespace shadowmath::backend::vk {
 namespace {
 
 constexpr char const* validation_layer = "VK_LAYER_KHRONOS_validation";
-constexpr char const* no_driver =
-    "there is no Vulkan 1.1 driver here; the Debian package mesa-vulkan-drivers brings a software one";
+constexpr char const* no_driver = "there is no Vulkan 1.1 driver with depth clamping here; the Debian package "
+                                  "mesa-vulkan-drivers brings a software one";
 
 bool has_validation_layer() {
     std::uint32_t count = 0;
