@@ -46,6 +46,17 @@ vec2 plane_slope(int map, Projected p, vec3 normal) {
     return clamp(rise / (abs(area) > 1e-30 ? area : 1e-30), -limit, limit);
 }
 
+// The slope of the plane across the light: what a map that is not affine adds to the slope of every receiver. Along a
+// light ray neither x nor y of NDC changes, so the ray is at a right angle to both of their gradients.
+vec2 map_lean(int map, Projected p) {
+    mat4 m = frame.maps[map].clip_from_world;
+    vec3 w = vec3(m[0].w, m[1].w, m[2].w);
+    vec3 ray = cross(normalize(vec3(m[0].x, m[1].x, m[2].x) - p.ndc.x * w),
+                     normalize(vec3(m[0].y, m[1].y, m[2].y) - p.ndc.y * w));
+    float size = length(ray);
+    return size > 0.0 ? plane_slope(map, p, ray / size) : vec2(0.0);
+}
+
 float depth_bias(int map, Projected p, vec2 slope) {
     MapConstants m = frame.maps[map];
     return m.bias_constant + m.bias_w / p.w + m.bias_slope_texels * (abs(slope.x) + abs(slope.y));
@@ -72,7 +83,9 @@ float map_visibility(int map, vec3 point, vec3 normal) {
     if (!is_inside(p, -float(radius + 1))) return 1.0;
 
     vec2 slope = plane_slope(map, p, normal);
-    float depth = p.ndc.z - depth_bias(map, p, slope);
+    // Taps that follow the plane follow the map's lean too; then only what the receiver adds can go wrong.
+    vec2 own = frame.tap_plane == 1 ? map_lean(map, p) : vec2(0.0);
+    float depth = p.ndc.z - depth_bias(map, p, slope - own);
     vec2 home = floor(p.texel);
     vec2 fraction = p.texel - home;
     float lit = 0.0;

@@ -196,11 +196,16 @@ std::string technique_chart(std::span<Technique const> techniques, Results const
     }
     std::ranges::sort(bars, {}, &Bar::mean);
 
-    double const left = 300.0, right = width - 84.0, row = 26.0;
-    double const scale = (right - left) / highest;
-    double const bottom = 40.0 + row * static_cast<double>(bars.size());
-    Svg svg(width, bottom + 12.0, "Mis-shadowed pixels off edges for each technique, percent");
-    double legend = left;
+    // Techniques differ by orders of magnitude, hence the logarithmic scale; less than its start is drawn at its start.
+    double const row = 26.0, bottom = 40.0 + row * static_cast<double>(bars.size());
+    LogAxis const x{1e-4, std::max(1e-2, 1.1 * highest), 330.0, width - 84.0};
+    Svg svg(width, bottom + 24.0, "Mis-shadowed pixels off edges for each technique, percent, on a logarithmic axis");
+    for (double const tick : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+        if (tick > x.to_value) break;
+        svg.line(x.at(tick), 32, x.at(tick), bottom, "grid");
+        svg.text(x.at(tick), bottom + 16, "middle", "tick", figure(100.0 * tick) + " %");
+    }
+    double legend = x.from_place;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         svg.dot(legend, 16, 4.5, "scene s" + std::to_string(i % 4));
         svg.text(legend + 9, 20, "start", "tick", scenes[i]);
@@ -209,14 +214,15 @@ std::string technique_chart(std::span<Technique const> techniques, Results const
     double y = 34.0;
     for (Bar const& bar : bars) {
         std::string const percent = percent_of(bar.mean);
-        svg.text(left - 10, y + 14, "end", "label", bar.technique->title);
-        svg.rect(left, y + 2, std::max(bar.mean * scale, 1.0), row - 8, "bar", bar.technique->id + ": " + percent);
+        svg.text(x.from_place - 12, y + 16, "end", "label", bar.technique->title);
+        svg.rect(x.from_place, y + 3, std::max(x.at(bar.mean) - x.from_place, 1.0), row - 8, "bar",
+                 bar.technique->id + ": " + percent);
         for (std::size_t i = 0; i < bar.of_scene.size(); ++i) {
             if (bar.of_scene[i] < 0.0) continue;
-            svg.dot(left + bar.of_scene[i] * scale, y + row / 2 - 2, 4.5, "scene s" + std::to_string(i % 4),
+            svg.dot(x.at(bar.of_scene[i]), y + row / 2 - 1, 4.5, "scene s" + std::to_string(i % 4),
                     scenes[i] + ": " + percent_of(bar.of_scene[i]));
         }
-        svg.text(width - 8, y + 14, "end", "label", percent);
+        svg.text(width - 8, y + 16, "end", "label", percent);
         y += row;
     }
     return svg.str();

@@ -5,9 +5,9 @@
 //
 //   bias = constant + per_inverse_w / w + slope_texels * (|slope.x| + |slope.y|)
 //
-// with slope the change of depth per texel on the receiver's plane. It is an amount of stored depth in favour of
-// light, not negative on anything that the map holds: subtract it where depth grows away from the light, add it where
-// it is reversed.
+// with slope the change of depth per texel on the receiver's plane, less the map's own lean where taps follow the
+// plane. It is an amount of stored depth in favour of light, not negative on anything that the map holds: subtract it
+// where depth grows away from the light, add it where it is reversed.
 //
 // Why 1/w: by the law of shadow maps a metre along a directional light adds k to clip depth and nothing to the other
 // three coordinates, in a warp or a view-dependent map as in a plain one. So a bias in metres is constant before the
@@ -58,6 +58,20 @@ template <class T>
     t = t / largest;
     T const area = (s.x * t.y - s.y * t.x) * T(map_size);
     return {bounded_quotient(s.z * t.y - s.y * t.z, area, limit), bounded_quotient(s.x * t.z - s.z * t.x, area, limit)};
+}
+
+// The slope of the plane across the light: 0 in an affine map; in any other what the map itself adds to the slope of every
+// receiver. No part of it makes a surface shadow itself, as long as each tap is compared with the plane at that tap.
+template <class T>
+[[nodiscard]] inline DepthSlope<T> lean(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, T limit) noexcept {
+    if (!all_finite(map.clip_from_world)) return {};
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front) return {};
+    // Along a light ray neither x nor y of NDC changes: it is at a right angle to both of these.
+    Vec3<T> const w(row(map.clip_from_world, 3));
+    Vec3<T> const x = Vec3<T>(row(map.clip_from_world, 0)) - at.at.x * w;
+    Vec3<T> const y = Vec3<T>(row(map.clip_from_world, 1)) - at.at.y * w;
+    return slope(map, map_size, point, glm::cross(safe_normalize(x).direction, safe_normalize(y).direction), limit);
 }
 
 // The k of the law: matrix * light = (0, 0, k, 0). For a directional light it is the clip depth that a metre along

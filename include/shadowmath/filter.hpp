@@ -93,7 +93,8 @@ template <class T, class StoredDepth>
     Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
     if (!at.in_front) return T(1);
     DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
-    T const toward_light = depth_bias(bias, at.w, on_plane);
+    DepthSlope<T> const own = options.tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
+    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
     bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
     T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
     return filtered(Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, map_size, map.clip, options,

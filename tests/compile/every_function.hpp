@@ -48,7 +48,7 @@ int every_function() noexcept {
              &closed_form::warped_along<T>, &closed_form::warped_across<T>, &closed_form::warped_worst<T>,
              &closed_form::best_centre<T>, &closed_form::split_uniform_worst<T>, &closed_form::split_warped_worst<T>,
              &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
-    count += keep(&slope<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
+    count += keep(&slope<T>, &lean<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
                   &normal_offset_metres<T>, &bias_for<T>, &bias_at<T>);
     count += keep(&bounds_of<T>);
     count += keep(&fit_cascades<T>);

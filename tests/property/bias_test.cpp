@@ -41,6 +41,7 @@ rc::Gen<LitPlane> lit_plane() {
 // Only what the kernel needs, and what rounding in double needs.
 BiasOptions<double> bare(int filter_radius, bool tap_plane) {
     BiasOptions<double> options;
+    options.flat_texels = 0;
     options.texels = 0;
     options.filter_radius = filter_radius;
     options.tap_plane = tap_plane;
@@ -68,6 +69,7 @@ TYPED_TEST(AnyBias, OfAnythingAtAllIsFinite) {
         Vec3<T> const normal = *nasty_vec3<T>();
         Vec3<T> const inside = *point_in(any.map);
         BiasOptions<T> options;
+        options.flat_texels = *nasty<T>();
         options.texels = *nasty<T>();
         options.metres = *nasty<T>();
         options.depth_step = *nasty<T>();
@@ -80,6 +82,8 @@ TYPED_TEST(AnyBias, OfAnythingAtAllIsFinite) {
             T const shift = depth_shift(each, light, inside, options.metres);
             RC_ASSERT(all_finite(&shift, 1) && shift >= T(0));
             RC_ASSERT(laws::is_within(slope(each, size, inside, normal, T(0.5)), T(0.5)));
+            RC_ASSERT(laws::is_within(lean(each, size, inside, T(0.5)), T(0.5)));
+            RC_ASSERT(laws::is_within(lean(each, size, point, T(0.5)), T(0.5)));
             RC_ASSERT(laws::is_within(slope(each, size, point, Vec3<T>(T(0), T(1), T(0)), T(0.5)), T(0.5)));
             T const amount = depth_bias(bias_for(each, light, size, options), options.metres, DepthSlope<T>{});
             RC_ASSERT(all_finite(&amount, 1) && amount >= T(0));
@@ -103,6 +107,19 @@ TEST(BiasProperty, SlopePredictsTheDepthOfAPlaneAtEveryTexelOfAnyMap) {
         long double const there = raster.depth_at(at.x * p.map_size + dx, at.y * p.map_size + dy);
         // The matrix has offsets of up to 1e3 where NDC has 1, and the plane leans up to 10: 1e4 of 2e-16 each.
         RC_ASSERT(std::abs(predicted - there) <= 1e-9L * (1 + std::abs(there)));
+    }));
+}
+
+TEST(BiasProperty, LeanIsTheSlopeOfThePlaneAcrossTheLightInAnyMap) {
+    EXPECT_TRUE(rc::check([] {
+        LitPlane const p = *lit_plane();
+        DepthSlope<double> const own = lean(p.any.map, p.map_size, p.point, 1e9);
+        DepthSlope<double> const across = slope(p.any.map, p.map_size, p.point, toward(p.any.light, p.point), 1e9);
+        DepthSlope<double> const steep = slope(p.any.map, p.map_size, p.point, p.normal, 1e9);
+        // The ray comes out of a matrix whose offsets are up to 1e3 where NDC has 1.
+        double const scale = 1.0 + std::abs(across.x) + std::abs(across.y) + std::abs(steep.x) + std::abs(steep.y);
+        RC_ASSERT(std::abs(own.x - across.x) <= 1e-9 * scale);
+        RC_ASSERT(std::abs(own.y - across.y) <= 1e-9 * scale);
     }));
 }
 

@@ -32,6 +32,7 @@ struct Overhead {
 
 BiasOptions<double> nothing() {
     BiasOptions<double> options;
+    options.flat_texels = 0;
     options.texels = 0;
     options.depth_step = 0;
     return options;
@@ -111,6 +112,34 @@ TEST(BiasFor, MetresOfAPlainMapAreAConstantShareOfItsDepth) {
     MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
     EXPECT_NEAR(bias.constant - rounding, 0.2 / 40, 1e-15);
     EXPECT_EQ(bias.per_inverse_w, 0.0);
+}
+
+TEST(BiasFor, FlatTexelsAreTexelsOfAPlaneAtHalfARightAngle) {
+    // A texel of 100 is 0.1 m wide; the map 40 m deep.
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    double const rounding = bias_for(overhead.map, overhead.light, 100, options).constant;
+    options.flat_texels = 3;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).constant - rounding, 3 * 0.1 / 40, 1e-14);
+}
+
+TEST(BiasFor, FlatTexelsOfASpotGrowWithItsTexelsAndShrinkWithItsDepth) {
+    // At d metres a texel is 2 d tan(1/2) / 100 wide, and depth f/(f-n) (1 - n/d) changes by f n / ((f-n) d^2) a metre.
+    Light<double> const light = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    BiasOptions<double> options = nothing();
+    MapBias<double> const none = bias_for(spot_map(1, 10), light, 100, options);
+    options.flat_texels = 2;
+    MapBias<double> const bias = bias_for(spot_map(1, 10), light, 100, options);
+    for (double const d : {1.0, 4.0, 10.0}) {
+        double const added = depth_bias(bias, d, {}) - depth_bias(none, d, {});
+        EXPECT_NEAR(added, 2 * (2 * d * std::tan(0.5) / 100) * (10.0 / (9 * d * d)), 1e-12) << d;
+    }
+}
+
+TEST(Lean, IsZeroInAnAffineMapWhateverTheLight) {
+    DepthSlope<double> const own = lean(Overhead().map, 100, Vec3<double>(1, 0.5, 3), 1.0);
+    EXPECT_NEAR(own.x, 0.0, 1e-15);
+    EXPECT_NEAR(own.y, 0.0, 1e-15);
 }
 
 TEST(BiasFor, TheKernelCountsOnlyWhereTapsDoNotFollowThePlane) {
