@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "backends/vk/vk_backend.hpp"
 
+#include "backends/index_ranges.hpp"
 #include "backends/pass_check.hpp"
 #include "backends/vk/barrier.hpp"
 #include "backends/vk/pipelines.hpp"
@@ -28,18 +29,6 @@ struct alignas(256) FrameBlock {
 // The binding is as wide as the widest block, wherever it begins.
 constexpr VkDeviceSize constants_size = (max_maps - 1) * sizeof(MapBlock) + sizeof(FrameBlock);
 static_assert(constants_size >= 2 * sizeof(FrameBlock));
-
-// Index ranges of objects, one draw call each; neighbours in the index array become one range.
-struct IndexRange {
-    std::uint32_t first = 0, count = 0;
-};
-void append(std::vector<IndexRange>& ranges, Object const& object) {
-    if (object.index_count == 0u) return;
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == object.first_index)
-        ranges.back().count += object.index_count;
-    else
-        ranges.push_back({object.first_index, object.index_count});
-}
 
 struct Maps {
     Target target;
@@ -83,7 +72,7 @@ public:
         demand_none(fault_of(pass, objects_.size()));
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
         std::array<MapBlock, max_maps> blocks{};
-        std::array<std::vector<IndexRange>, max_maps> ranges;
+        std::array<IndexRanges, max_maps> ranges;
         for (std::size_t i = 0; i < pass.layers.size(); ++i) {
             blocks[i].clip_from_world = pass.layers[i].clip_from_world;
             for (std::uint32_t const object : pass.layers[i].objects) append(ranges[i], objects_[object]);
@@ -111,7 +100,7 @@ public:
         prepare_frame(pass.extent);
         std::array<FrameBlock, 2> blocks{FrameBlock{pass.frame}, FrameBlock{pass.frame}};
         blocks[1].frame.map_count = 0;
-        std::array<std::vector<IndexRange>, 2> ranges;
+        std::array<IndexRanges, 2> ranges;
         for (Object const& object : objects_) append(ranges[object.receives ? 0 : 1], object);
 
         glm::vec4 const& sky = pass.frame.sky;
@@ -174,10 +163,6 @@ public:
     std::vector<std::string> take_messages() override { return std::exchange(device_.messages, {}); }
 
 private:
-    static void demand_none(std::string const& fault) {
-        if (!fault.empty()) throw std::runtime_error(fault);
-    }
-
     template <class Pixel>
     static VkDeviceSize byte_count(Image<Pixel> const& image) {
         return image.pixels.size() * sizeof(Pixel);
@@ -316,7 +301,7 @@ private:
         vkCmdSetScissor(commands, 0, 1, &area);
     }
 
-    void draw(VkCommandBuffer commands, std::size_t block_offset, std::span<IndexRange const> ranges) const {
+    void draw(VkCommandBuffer commands, std::size_t block_offset, IndexRanges const& ranges) const {
         if (ranges.empty()) return;
         auto const offset = static_cast<std::uint32_t>(block_offset);
         VkDeviceSize const from_start = 0;
