@@ -6,7 +6,6 @@
 #include "backends/vk/barrier.hpp"
 #include "backends/vk/pipelines.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
