@@ -101,8 +101,9 @@ struct Frame {
 };
 
 struct BackendInfo {
-    std::string name;    // "egl", "osmesa", "vulkan", "null"
-    std::string driver;  // as the driver calls itself
+    std::string name;             // "egl", "osmesa", "vulkan", "null"
+    std::string driver;           // as the driver calls itself
+    std::string shaders{"none"};  // the form in which it took them: "SPIR-V", "GLSL"
 };
 
 class Backend {

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 
 namespace shadowmath::backend {
@@ -59,6 +60,11 @@ namespace shadowmath::backend {
         if (!is_finite(frame.maps[static_cast<std::size_t>(i)].clip_from_world))
             return "scene pass: map " + std::to_string(i) + " has a matrix that is not finite";
     return {};
+}
+
+// For backends that draw.
+inline void demand_none(std::string const& fault) {
+    if (!fault.empty()) throw std::runtime_error(fault);
 }
 
 }  // namespace shadowmath::backend

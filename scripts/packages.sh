@@ -8,12 +8,15 @@ demo_packages=(
     libglm-dev                                                   # the only one that the headers need
     libegl-dev libgl-dev libopengl-dev libosmesa6-dev            # OpenGL, two ways into it
     libegl-mesa0 libgl1-mesa-dri                                 # and a software driver
+    libvulkan-dev mesa-vulkan-drivers                            # Vulkan, with a software driver
+    glslang-tools spirv-tools                                    # its shaders, which OpenGL takes too
     libembree-dev                                                # the ray-traced truth
     libtinyobjloader-dev libpng-dev libcli11-dev nlohmann-json3-dev
 )
 test_packages=(
     "${demo_packages[@]}"
     libgtest-dev librapidcheck-dev
+    vulkan-validationlayers                                      # watch every call of the Vulkan backend
     clang clang-format                                           # the second compiler, the layout of the code
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery

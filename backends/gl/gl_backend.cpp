@@ -3,9 +3,8 @@
 
 #include "backends/gl/context.hpp"
 #include "backends/gl/objects.hpp"
+#include "backends/index_ranges.hpp"
 #include "backends/pass_check.hpp"
-
-#include "backends/shaders/embedded.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -26,33 +25,17 @@ struct alignas(256) FrameBlock {
     FrameConstants frame;
 };
 
-// Index ranges of objects for one glMultiDrawElements; neighbours in the index array become one range.
-class IndexRanges {
-public:
-    void append(Object const& object) {
-        if (object.index_count == 0u) return;
-        auto const count = static_cast<GLsizei>(object.index_count);
-        if (!counts_.empty() && object.first_index == end_) {
-            counts_.back() += count;
-        } else {
-            counts_.push_back(count);
-            offsets_.push_back(
-                reinterpret_cast<void const*>(std::uintptr_t{object.first_index} * sizeof(std::uint32_t)));
-        }
-        end_ = object.first_index + object.index_count;
+void draw(Procs const& gl, IndexRanges const& ranges) {
+    std::vector<GLsizei> counts;
+    std::vector<void const*> offsets;
+    for (IndexRange const& range : ranges) {
+        counts.push_back(static_cast<GLsizei>(range.count));
+        offsets.push_back(reinterpret_cast<void const*>(std::uintptr_t{range.first} * sizeof(std::uint32_t)));
     }
-
-    void draw(Procs const& gl) const {
-        if (counts_.empty()) return;
-        gl.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
-                             static_cast<GLsizei>(counts_.size()));
-    }
-
-private:
-    std::vector<GLsizei> counts_;
-    std::vector<void const*> offsets_;
-    std::uint32_t end_ = 0;
-};
+    if (!counts.empty())
+        gl.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                             static_cast<GLsizei>(counts.size()));
+}
 
 // All that belongs to the context and dies before it.
 struct Resources {
@@ -74,9 +57,10 @@ struct Resources {
 
 class GlBackend final : public Backend {
 public:
-    explicit GlBackend(std::unique_ptr<Context> context) : context_(std::move(context)) {
+    GlBackend(std::unique_ptr<Context> context, GlShaders shaders) : context_(std::move(context)) {
         Current const current(*context_);
         gl_.emplace([this](char const* name) { return context_->proc(name); });
+        if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
         listen();
         resources_.emplace(*gl_);
         describe_vertices();
@@ -85,6 +69,7 @@ public:
         gl_->DepthFunc(GL_LESS);
         gl_->Enable(GL_FRAMEBUFFER_SRGB);
         gl_->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        gl_->ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);  // as in Vulkan: rasterisers start their sums from it
     }
 
     ~GlBackend() override {
@@ -98,7 +83,8 @@ public:
         auto const text = [this](GLenum what) {
             return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
         };
-        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION)};
+        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION),
+                takes_spirv(*gl_, shaders::depth_vert) ? "SPIR-V" : "GLSL"};
     }
 
     void upload(Scene const& scene) override {
@@ -123,7 +109,7 @@ public:
         std::array<IndexRanges, max_maps> ranges;
         for (std::size_t i = 0; i < pass.layers.size(); ++i) {
             blocks[i].clip_from_world = pass.layers[i].clip_from_world;
-            for (std::uint32_t const object : pass.layers[i].objects) ranges[i].append(objects_[object]);
+            for (std::uint32_t const object : pass.layers[i].objects) append(ranges[i], objects_[object]);
         }
 
         return timed([&] {
@@ -134,7 +120,7 @@ public:
                 gl_->NamedFramebufferTextureLayer(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0, i);
                 clear_depth(resources_->map_target);
                 bind_constants<MapBlock>(i);
-                ranges[static_cast<std::size_t>(i)].draw(*gl_);
+                backend::draw(*gl_, ranges[static_cast<std::size_t>(i)]);
             }
             gl_->Disable(GL_DEPTH_CLAMP);
         });
@@ -149,7 +135,7 @@ public:
         std::array<FrameBlock, 2> blocks{FrameBlock{pass.frame}, FrameBlock{pass.frame}};
         blocks[1].frame.map_count = 0;
         std::array<IndexRanges, 2> ranges;
-        for (Object const& object : objects_) ranges[object.receives ? 0 : 1].append(object);
+        for (Object const& object : objects_) append(ranges[object.receives ? 0 : 1], object);
 
         return timed([&] {
             write_constants(blocks);
@@ -158,7 +144,7 @@ public:
             gl_->BindTextureUnit(1, resources_->maps);
             for (int i = 0; i < 2; ++i) {
                 bind_constants<FrameBlock>(i);
-                ranges[static_cast<std::size_t>(i)].draw(*gl_);
+                backend::draw(*gl_, ranges[static_cast<std::size_t>(i)]);
             }
         });
     }
@@ -189,10 +175,6 @@ public:
     std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
 
 private:
-    static void demand_none(std::string const& fault) {
-        if (!fault.empty()) throw std::runtime_error(fault);
-    }
-
     template <class Pixel>
     static GLsizei byte_count(Image<Pixel> const& image) {
         return static_cast<GLsizei>(image.pixels.size() * sizeof(Pixel));
@@ -319,8 +301,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Backend> make_gl_backend(GlContextKind kind) {
-    return std::make_unique<GlBackend>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context());
+std::unique_ptr<Backend> make_gl_backend(GlContextKind kind, GlShaders shaders) {
+    return std::make_unique<GlBackend>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context(),
+                                       shaders);
 }
 
 }  // namespace shadowmath::backend

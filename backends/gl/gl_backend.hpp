@@ -15,7 +15,12 @@ enum class GlContextKind {
     osmesa,  // always Mesa's software rasteriser
 };
 
+enum class GlShaders {
+    spirv,  // where the driver has GL_ARB_gl_spirv and the build had glslangValidator, else text
+    text,
+};
+
 // Throws std::runtime_error with one sentence when there is no such context on this machine.
-[[nodiscard]] std::unique_ptr<Backend> make_gl_backend(GlContextKind kind);
+[[nodiscard]] std::unique_ptr<Backend> make_gl_backend(GlContextKind kind, GlShaders shaders = GlShaders::spirv);
 
 }  // namespace shadowmath::backend

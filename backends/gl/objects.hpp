@@ -5,6 +5,8 @@
 
 #include "backends/gl/procs.hpp"
 
+#include "backends/shaders/embedded.hpp"
+
 #include <initializer_list>
 #include <string>
 #include <type_traits>
@@ -72,8 +74,13 @@ using Program = Name<&Procs::DeleteProgram>;
 
 struct ShaderSource {
     GLenum stage;
-    char const* text;
+    shaders::Shader const& shader;
 };
+
+// Where the driver takes compiled words and they are there, it gets them; else the text.
+[[nodiscard]] inline bool takes_spirv(Procs const& gl, shaders::Shader const& shader) {
+    return gl.SpecializeShader != nullptr && !shader.spirv.empty();
+}
 
 // Compiles and links, or throws the driver's own words.
 [[nodiscard]] inline Program make_program(Procs const& gl, std::initializer_list<ShaderSource> sources) {
@@ -82,10 +89,17 @@ struct ShaderSource {
     GLsizei length = 0;
     GLint done = GL_FALSE;
     Program program(gl, gl.CreateProgram());
-    for (ShaderSource const& source : sources) {
-        Shader const shader(gl, gl.CreateShader(source.stage));
-        gl.ShaderSource(shader, 1, &source.text, nullptr);
-        gl.CompileShader(shader);
+    for (auto const& [stage, source] : sources) {
+        Shader const shader(gl, gl.CreateShader(stage));
+        if (takes_spirv(gl, source)) {
+            GLuint const name = shader;
+            gl.ShaderBinary(1, &name, GL_SHADER_BINARY_FORMAT_SPIR_V_ARB, source.spirv.data(),
+                            static_cast<GLsizei>(source.spirv.size_bytes()));
+            gl.SpecializeShader(shader, "main", 0, nullptr, nullptr);
+        } else {
+            gl.ShaderSource(shader, 1, &source.text, nullptr);
+            gl.CompileShader(shader);
+        }
         gl.GetShaderiv(shader, GL_COMPILE_STATUS, &done);
         gl.GetShaderInfoLog(shader, room, &length, log.data());
         if (done != GL_TRUE)

@@ -11,12 +11,14 @@
 #include <GL/glcorearb.h>
 
 #include <stdexcept>
+#include <string_view>
 
 // clang-format off
 #define SHADOWMATH_GL_PROCS(X)                                                                                      \
-    X(GetString) X(Enable) X(Disable) X(Finish) X(Viewport) X(DepthFunc) X(ClipControl)                             \
-    X(DebugMessageCallback) X(DebugMessageControl)                                                                  \
-    X(CreateShader) X(ShaderSource) X(CompileShader) X(GetShaderiv) X(GetShaderInfoLog) X(DeleteShader)             \
+    X(GetString) X(GetStringi) X(GetIntegerv) X(Enable) X(Disable) X(Finish)                                        \
+    X(Viewport) X(DepthFunc) X(ClipControl) X(ProvokingVertex) X(DebugMessageCallback) X(DebugMessageControl)       \
+    X(CreateShader) X(ShaderSource) X(ShaderBinary) X(CompileShader) X(GetShaderiv) X(GetShaderInfoLog)             \
+    X(DeleteShader)                                                                                                 \
     X(CreateProgram) X(AttachShader) X(LinkProgram) X(GetProgramiv) X(GetProgramInfoLog) X(UseProgram)              \
     X(DeleteProgram)                                                                                                \
     X(CreateBuffers) X(NamedBufferData) X(BindBufferRange) X(DeleteBuffers)                                         \
@@ -35,8 +37,9 @@ struct Procs {
 #define SHADOWMATH_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
     SHADOWMATH_GL_PROCS(SHADOWMATH_GL_MEMBER)
 #undef SHADOWMATH_GL_MEMBER
+    decltype(&::glSpecializeShaderARB) SpecializeShader = nullptr;  // null without GL_ARB_gl_spirv
 
-    // Loads every entry point or throws; get_proc maps a name such as "glEnable" to a function pointer.
+    // Loads every entry point of the core or throws; get_proc maps a name such as "glEnable" to a function pointer.
     template <class GetProc>
     explicit Procs(GetProc const& get_proc) {
 #define SHADOWMATH_GL_LOAD(name)                                   \
@@ -44,6 +47,16 @@ struct Procs {
     if (name == nullptr) throw std::runtime_error("this OpenGL driver has no gl" #name);
         SHADOWMATH_GL_PROCS(SHADOWMATH_GL_LOAD)
 #undef SHADOWMATH_GL_LOAD
+        if (has_extension("GL_ARB_gl_spirv"))
+            SpecializeShader = reinterpret_cast<decltype(SpecializeShader)>(get_proc("glSpecializeShaderARB"));
+    }
+
+    [[nodiscard]] bool has_extension(std::string_view wanted) const {
+        GLint count = 0;
+        GetIntegerv(GL_NUM_EXTENSIONS, &count);
+        for (GLuint i = 0; i < static_cast<GLuint>(count); ++i)
+            if (wanted == reinterpret_cast<char const*>(GetStringi(GL_EXTENSIONS, i))) return true;
+        return false;
     }
 };
 

@@ -2,6 +2,7 @@
 //
 // Draws casters into one shadow map. No fragment shader: depth is all that is kept.
 #version 450
+#include "transform.glsl"
 
 layout(location = 0) in vec3 position;  // world
 
@@ -10,6 +11,5 @@ layout(std140, binding = 0) uniform Map {
 };
 
 void main() {
-    // NOTE: project_to_map in shadow.glsl forms the same product, so that both sides round alike.
-    gl_Position = clip_from_world * vec4(position, 1.0);
+    gl_Position = transformed(clip_from_world, position);
 }

@@ -18,7 +18,7 @@ struct Shadow {
 };
 
 Projected project_to_map(int map, vec3 point) {
-    vec4 clip = frame.maps[map].clip_from_world * vec4(point, 1.0);
+    vec4 clip = transformed(frame.maps[map].clip_from_world, point);
     vec3 ndc = clip.xyz / clip.w;
     return Projected(ndc, clip.w, (ndc.xy * 0.5 + 0.5) * frame.map_size, clip.w > frame.maps[map].w_min);
 }

@@ -3,6 +3,7 @@
 // Renders scenes through every technique and backend, holds each picture against ray-traced truth, and writes a page
 // that shows it all.
 #include "backends/gl/gl_backend.hpp"
+#include "backends/vk/vk_backend.hpp"
 #include "examples/gallery/page.hpp"
 #include "examples/gallery/results.hpp"
 #include "examples/gallery/run.hpp"
@@ -61,8 +62,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
     app.add_flag("--quick", settings.quick, "fewer views and techniques, smaller scenes and pictures");
     app.add_option("--out", settings.out, "folder to write; an earlier gallery there is replaced")
         ->capture_default_str();
-    app.add_option("--backend", settings.backend, "egl, osmesa or all")
-        ->check(CLI::IsMember({"egl", "osmesa", "all"}))
+    app.add_option("--backend", settings.backend, "egl, osmesa, vulkan or all")
+        ->check(CLI::IsMember({"egl", "osmesa", "vulkan", "all"}))
         ->capture_default_str();
     app.add_option("--size", size, "WIDTHxHEIGHT of the pictures (960x540; quick: 640x360)")
         ->check([&](std::string const& text) {
@@ -88,16 +89,17 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
 std::vector<std::unique_ptr<backend::Backend>> open_backends(std::string const& wanted) {
     std::vector<std::unique_ptr<backend::Backend>> open;
     std::string missing;
-    auto const add = [&](char const* name, backend::GlContextKind kind) {
+    auto const add = [&](char const* name, auto const& make) {
         if (wanted != "all" && wanted != name) return;
         try {
-            open.push_back(backend::make_gl_backend(kind));
+            open.push_back(make());
         } catch (std::runtime_error const& error) {
             missing += (missing.empty() ? "" : "; ") + std::string(error.what());
         }
     };
-    add("egl", backend::GlContextKind::egl);
-    add("osmesa", backend::GlContextKind::osmesa);
+    add("egl", [] { return backend::make_gl_backend(backend::GlContextKind::egl); });
+    add("osmesa", [] { return backend::make_gl_backend(backend::GlContextKind::osmesa); });
+    add("vulkan", [] { return backend::make_vulkan_backend(); });
     if (open.empty()) throw std::runtime_error(missing);
     if (!missing.empty()) tell("left out: " + missing);
     for (auto const& backend : open) tell(backend->info().name + ": " + backend->info().driver);

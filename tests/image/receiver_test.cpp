@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The receiver pass against geometry: where shadows fall and which map is read. What is shaded: shading_test.cpp.
-#include "tests/image/gl_contexts.hpp"
+#include "tests/image/contexts.hpp"
 #include "tests/image/quad_over_floor.hpp"
 
 #include <functional>
@@ -35,8 +35,8 @@ Disagreement compare_with_geometry(QuadOverFloor const& world, Frame const& fram
     return result;
 }
 
-class Receiver : public InGlContext {};
-INSTANTIATE_TEST_SUITE_P(Contexts, Receiver, both_contexts, context_name);
+class Receiver : public InContext {};
+INSTANTIATE_TEST_SUITE_P(Contexts, Receiver, every_context, context_name);
 
 // Without bias but for rounding: the tap's plane depth is exact. Map depths lie in [0, 1], formed from products and
 // sums of terms below 2, in the vertex shader, the rasteriser and the receiver: 32 roundings are generous.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the receiver pass leaves in each pixel besides visibility: position, normal and colour.
-#include "tests/image/gl_contexts.hpp"
+#include "tests/image/contexts.hpp"
 #include "tests/image/quad_over_floor.hpp"
 
 #include <limits>
@@ -12,8 +12,8 @@ using namespace shadowmath::image_test;
 
 constexpr float epsilon = std::numeric_limits<float>::epsilon();
 
-class Shading : public InGlContext {};
-INSTANTIATE_TEST_SUITE_P(Contexts, Shading, both_contexts, context_name);
+class Shading : public InContext {};
+INSTANTIATE_TEST_SUITE_P(Contexts, Shading, every_context, context_name);
 
 void expect_true_positions_and_normals(Backend& backend, bool mirrored) {
     QuadOverFloor const world;

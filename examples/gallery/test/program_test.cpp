@@ -188,6 +188,8 @@ TEST_F(Gallery, KeepsTheOlderOneWhenItFails) {
 
 TEST_F(Gallery, SaysInOneLineThatThereIsNoDriver) {
     expect_refusal(quick + " cube.obj --backend egl --out new", 1, "EGL", "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere");
+    expect_refusal(quick + " cube.obj --backend vulkan --out new", 1, "Vulkan",
+                   "VK_DRIVER_FILES=/nowhere VK_ICD_FILENAMES=/nowhere");
 }
 
 TEST_F(Gallery, TellsWrongUsageWithStatusTwo) {
