@@ -37,16 +37,16 @@ Aabb<double> flat_world() {
     return {glm::dvec3(-400.0, 0.0, -400.0), glm::dvec3(400.0, 10.0, 400.0)};
 }
 
-// Eye pixels a texel, the longer way, on the ground straight ahead at this eye depth.
-double ground_footprint(glm::dmat4 const& map, double map_size, double depth) {
+// Of a texel on the ground straight ahead at this eye depth.
+Footprint<double> ground_footprint(glm::dmat4 const& map, double map_size, double depth) {
     return footprint(clip_from_world(walker(), gl_zero_to_one_clip), glm::dvec2(screen.width, screen.height), map,
-                     map_size, glm::dvec3(0.0, 0.0, -depth), glm::dvec3(0.0, 1.0, 0.0))
-        .major;
+                     map_size, glm::dvec3(0.0, 0.0, -depth), glm::dvec3(0.0, 1.0, 0.0));
 }
 
-// Mean over eye depths from `begin` to `end` metres, with four cascades at this lambda, each fitted to its slice's
-// corners as in the chapter. (A stable sphere is centred on the far end of a wide slice: where the slice begins does
-// not matter.)
+// Square pixels that a texel covers, the mean over eye depths from `begin` to `end` metres, with four cascades at this
+// lambda, each fitted to its slice's corners as in the chapter. The area, because splits act along the view alone: how
+// far a slice reaches across is a matter of where it ends. (A stable sphere would not do: that of a wide slice is
+// centred on the far end, and where the slice begins does not matter.)
 double cascade_footprint(double lambda, double begin, double end) {
     CascadeOptions<double> options;
     options.lambda = lambda;
@@ -62,7 +62,7 @@ double cascade_footprint(double lambda, double begin, double end) {
         double const depth = begin + (end - begin) * (i + 0.5) / samples;
         for (auto const& cascade : fitted)
             if (depth < cascade.range.end) {
-                sum += ground_footprint(cascade.map.clip_from_world, options.map_size, depth);
+                sum += area(ground_footprint(cascade.map.clip_from_world, options.map_size, depth));
                 break;
             }
     }
@@ -74,7 +74,7 @@ Claim practical_near() {
     return {"000-near-footprint",
             "GPU Gems 3, 10.1",
             "Practical splits at lambda = 1/2 have a smaller footprint near the eye than uniform splits",
-            text("2 to 10 m ahead, mean: practical %.2f, uniform %.2f pixels a texel", practical, uniform),
+            text("2 to 10 m ahead, mean: practical %.2f, uniform %.2f square pixels a texel", practical, uniform),
             practical < uniform,
             "the first practical split is shorter, so its map covers less"};
 }
@@ -84,7 +84,7 @@ Claim practical_far() {
     return {"000-far-footprint",
             "GPU Gems 3, 10.1",
             "Practical splits at lambda = 1/2 have a smaller footprint far away than logarithmic splits",
-            text("120 to 200 m ahead, mean: practical %.3f, logarithmic %.3f pixels a texel", practical, log),
+            text("120 to 200 m ahead, mean: practical %.3f, logarithmic %.3f square pixels a texel", practical, log),
             practical < log,
             "the last practical split is shorter than the last logarithmic one"};
 }
@@ -144,7 +144,7 @@ Claim vdsm_constant() {
     auto const map = ground_vdsm(light);
     double least = std::numeric_limits<double>::max(), most = 0.0;
     for (double depth = 4.0; depth < ground_distance; depth *= 1.05) {
-        double const here = ground_footprint(map.clip_from_world, 1024.0, depth);
+        double const here = ground_footprint(map.clip_from_world, 1024.0, depth).major;
         least = std::min(least, here);
         most = std::max(most, here);
     }
