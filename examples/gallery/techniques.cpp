@@ -162,6 +162,28 @@ ShadowMap<double> warped_map(Input const& in) {
     return simple_perspective_map(in.seen, in.light, in.casters, in.receivers, options, clip);
 }
 
+// As the weblog describes it: a plain light map with the camera in its middle and the view along y, then the printed
+// warp. Its w, h, zn and zf are found by trial there; these fill the width and cut nothing in depth.
+ShadowMap<double> printed_map(Input const& in) {
+    ShadowMap<double> map;
+    LightBasis<double> const basis = warp_axes(in.eye.pose, in.light.direction).basis;
+    LightBox<double> box = fit_box(basis, corners(in.seen), in.map_size, 0.0);
+    DepthRange<double> const slice_depth{box.depth_lo, box.depth_hi, true};
+    glm::dvec2 const middle(in_light(basis, in.eye.pose.position));
+    box.lo = middle - in.seen.z_far;
+    box.hi = middle + in.seen.z_far;
+    DepthRange<double> const depth = depth_range(box, slice_depth, in.casters, in.receivers, false);
+    if (!depth.visible) return map;
+    box.depth_lo = depth.lo;
+    box.depth_hi = depth.hi;
+    map.clip = clip;
+    constexpr double zn = 0.05;
+    map.clip_from_world = printed_simple_warp(2.0 * zn * in.eye.right, 2.0, zn, 1.0) * clip_from_world(box, clip);
+    map.w_min = 0.01;
+    map.visible = true;
+    return map;
+}
+
 struct Entry {
     Technique technique;
     bool quick;  // also in quick runs
@@ -202,6 +224,9 @@ std::vector<Entry> const& entries() {
         {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false},
          true,
          single(warped_map)},
+        {{"simple-printed", "Simple perspective map, as printed", "weblog 2012", 1024, 1, false},
+         false,
+         single(printed_map)},
         {{"vdsm", "View-dependent map, lit elsewhere", "Kwon 2002", 1024, 1, true}, false, single(thesis_map)},
         {{"vdsm-fallback", "View-dependent map, uniform map behind it", "Kwon 2002", 1024, 2, true},
          true,
