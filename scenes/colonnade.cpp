@@ -65,14 +65,7 @@ private:
                 return glm::dvec3(land(p.x - d, p.z, seed_) - land(p.x + d, p.z, seed_), 2.0 * d,
                                   land(p.x, p.z - d, seed_) - land(p.x, p.z + d, seed_));
             };
-            for (int j = 0; j < cells / tiles; ++j)
-                for (int i = 0; i < cells / tiles; ++i) {
-                    std::array const p{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
-                    for (auto const& k : {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}})
-                        mesh_.coloured_triangle({p[k[0]], p[k[1]], p[k[2]]},
-                                                {normal(p[k[0]]), normal(p[k[1]]), normal(p[k[2]])},
-                                                {colour(p[k[0]]), colour(p[k[1]]), colour(p[k[2]])});
-                }
+            mesh_.coloured_patch(cells / tiles, point, normal, colour);
             mesh_.end_object();
         }
     }

@@ -71,14 +71,7 @@ private:
                 double const z = -land_edge + 2.0 * land_edge * (j + per_tile * (tile / tiles)) / cells;
                 return glm::dvec3(x, land(x, z), z);
             };
-            for (int j = 0; j < per_tile; ++j)
-                for (int i = 0; i < per_tile; ++i) {
-                    std::array const p{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
-                    for (auto const& k : {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}})
-                        mesh_.coloured_triangle({p[k[0]], p[k[1]], p[k[2]]},
-                                                {normal(p[k[0]]), normal(p[k[1]]), normal(p[k[2]])},
-                                                {colour(p[k[0]]), colour(p[k[1]]), colour(p[k[2]])});
-                }
+            mesh_.coloured_patch(per_tile, point, normal, colour);
             mesh_.end_object();
         }
     }

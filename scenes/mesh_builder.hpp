@@ -77,6 +77,21 @@ public:
     }
     void coloured_triangle(std::array<glm::dvec3, 3> const& corners, std::array<glm::dvec3, 3> const& normals,
                            std::array<glm::dvec3, 3> const& colours);
+
+    // cells x cells squares of two triangles. `point(i, j)` is the place of a grid corner, `normal_at(p)` and
+    // `colour_at(p)` are what the surface has there.
+    template <class Point, class Normal, class Colour>
+    void coloured_patch(int cells, Point const& point, Normal const& normal_at, Colour const& colour_at) {
+        for (int j = 0; j < cells; ++j)
+            for (int i = 0; i < cells; ++i) {
+                std::array const p{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
+                for (auto const& k : {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}})
+                    coloured_triangle({p[k[0]], p[k[1]], p[k[2]]},
+                                      {normal_at(p[k[0]]), normal_at(p[k[1]]), normal_at(p[k[2]])},
+                                      {colour_at(p[k[0]]), colour_at(p[k[1]]), colour_at(p[k[2]])});
+            }
+    }
+
     void quad(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
 
     void box(glm::dvec3 lo, glm::dvec3 hi);

@@ -105,14 +105,19 @@ SliceRange<double> whole(Input const& in) {
     return {in.seen.z_near, in.seen.z_far, in.seen.z_far};
 }
 
-void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
-    set.frame.choice = choice;
+CascadeOptions<double> cascade_options(Input const& in, CascadeFit fit) {
     CascadeOptions<double> options;
-    options.lambda = lambda;
     options.fit = fit;
     options.map_size = in.map_size;
     options.filter_radius = filter_radius;
     options.clip = clip;
+    return options;
+}
+
+void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
+    set.frame.choice = choice;
+    CascadeOptions<double> options = cascade_options(in, fit);
+    options.lambda = lambda;
     Cascades<double> const fitted = fit_cascades(in.seen, in.light, in.casters, in.receivers, options);
     note(set, fitted.faults);
     for (Cascade<double> const& cascade : fitted) {
@@ -123,12 +128,8 @@ void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapCh
 }
 
 ShadowMap<double> standard_map(Input const& in) {
-    CascadeOptions<double> options;
+    CascadeOptions<double> options = cascade_options(in, CascadeFit::tight);
     options.count = 1;
-    options.fit = CascadeFit::tight;
-    options.map_size = in.map_size;
-    options.filter_radius = filter_radius;
-    options.clip = clip;
     Cascades<double> const fitted = fit_cascades(in.seen, in.light, in.casters, in.receivers, options);
     ShadowMap<double> map = fitted.count > 0 ? fitted.at[0].map : ShadowMap<double>{};
     map.faults |= fitted.faults;

@@ -55,8 +55,8 @@ template <class T>
 struct Cascade {
     ShadowMap<T> map;
     SliceRange<T> range;    // metres of eye depth that it serves
-    T texel_metres = T(0);  // across the light; of a spot, at the far end of its range
-    T depth_metres = T(0);  // along the light, from depth 0 to depth 1
+    T texel_metres = T(0);  // across the light; 0 of a spot, whose texels grow with distance
+    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of a spot
 };
 
 template <class T>

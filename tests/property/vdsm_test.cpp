@@ -9,6 +9,22 @@
 using namespace shadowmath;
 using namespace shadowmath::test;
 
+// The law, the point in view and the caster on its light ray, in their order: the same for every light.
+template <class T>
+void serves_receiver_and_caster(SeenCase<T> const& scene, Light<T> const& light, ShadowPlane<T> const& plane,
+                                Vec3<T> const& caster) {
+    VdsmOptions<T> const options;
+    ShadowMap<T> const map = view_dependent_map(scene.view, light, plane, merge(scene.receivers, caster),
+                                                scene.receivers, options, scene.clip);
+    RC_ASSERT(laws::harmless(map));
+    RC_ASSERT(map.visible);
+    RC_ASSERT(laws::is_map_of(map.clip_from_world, light, scene.clip));
+    T const margin = T(2) * options.margin_texels / T(options.map_size);
+    RC_ASSERT(laws::serves(map, scene.point, margin));
+    RC_ASSERT(laws::serves(map, caster, margin));
+    RC_ASSERT(laws::keeps_the_order(map, caster, scene.point));
+}
+
 template <class T>
 class VdsmProperty : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
@@ -53,16 +69,7 @@ TYPED_TEST(VdsmProperty, ServesThePlaneInViewAndTheCastersBetweenItAndASun) {
         T const away = *log_uniform<T>(T(1e-3), T(100));
         T const distance = away * glm::length(scene.point - scene.view.pose.position);
         Vec3<T> const caster = scene.point - light.direction * distance;
-        VdsmOptions<T> const options;
-        ShadowMap<T> const map = view_dependent_map(scene.view, light, plane, merge(scene.receivers, caster),
-                                                    scene.receivers, options, scene.clip);
-        RC_ASSERT(laws::harmless(map));
-        RC_ASSERT(map.visible);
-        RC_ASSERT(laws::is_map_of(map.clip_from_world, light, scene.clip));
-        T const margin = T(2) * options.margin_texels / T(options.map_size);
-        RC_ASSERT(laws::serves(map, scene.point, margin));
-        RC_ASSERT(laws::serves(map, caster, margin));
-        RC_ASSERT(laws::keeps_the_order(map, caster, scene.point));
+        serves_receiver_and_caster(scene, light, plane, caster);
     }));
 }
 
@@ -81,16 +88,7 @@ TYPED_TEST(VdsmProperty, ServesThePlaneInViewAndTheCastersBetweenItAndASpot) {
         RC_PRE(std::abs(glm::dot(plane.normal, travel)) * distance > T(0.05));
         Light<T> const light = spot(place, travel, T(0.5), T(2) * distance);
         Vec3<T> const caster = scene.point + (place - scene.point) * (T(1) - share);
-        VdsmOptions<T> const options;
-        ShadowMap<T> const map = view_dependent_map(scene.view, light, plane, merge(scene.receivers, caster),
-                                                    scene.receivers, options, scene.clip);
-        RC_ASSERT(laws::harmless(map));
-        RC_ASSERT(map.visible);
-        RC_ASSERT(laws::is_map_of(map.clip_from_world, light, scene.clip));
-        T const margin = T(2) * options.margin_texels / T(options.map_size);
-        RC_ASSERT(laws::serves(map, scene.point, margin));
-        RC_ASSERT(laws::serves(map, caster, margin));
-        RC_ASSERT(laws::keeps_the_order(map, caster, scene.point));
+        serves_receiver_and_caster(scene, light, plane, caster);
     }));
 }
 
