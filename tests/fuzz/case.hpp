@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The laws, driven by bytes: what a fuzzer turns into inputs, and what any compiler, setting or processor can be tried
-// with, since nothing here needs a framework. A file of laws/ registers one target; the drivers are libfuzzer.cpp, which
-// looks for bytes that break a law, and replay.cpp, which runs stored and pseudo-random ones.
+// with, since nothing here needs a framework. A file of laws/ registers one target; the drivers are libfuzzer.cpp,
+// which looks for bytes that break a law, and replay.cpp, which runs stored and pseudo-random ones.
 //
 //   [[maybe_unused]] bool const splits_target = add_target("splits", [](Case& c) {
 //       float const z_near = c.number<float>();
