@@ -42,6 +42,7 @@
 // What a matrix is worth, and needs.
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/bias.hpp>
+#include <shadowmath/culling.hpp>
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/tangent.hpp>
 

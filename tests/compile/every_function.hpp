@@ -30,6 +30,8 @@ int every_overloaded_function() noexcept {
     count += corners(box)[0] == corners(view)[0];
     count += (faults_of(view) | faults_of(Light<T>{}) | faults_of(Tile{})).any();
     count += describe(Fault::not_finite) != describe(Faults{});
+    CasterMaps<T> const casters = caster_maps(Cascades<T>{});
+    count += caster_mask(casters, box) + caster_mask(caster_maps(&map, 1), Sphere<T>{});
     count += clip_from_world(LightBox<T>{}, reversed(gl_clip)) == clip_from_world(view, vulkan_clip);
     count += clip_from_world(TexelGrid<T>{}, T(0), T(1), d3d_clip) == identity;
     for_each_vertex(convex_body(corners(box)), [&count](Vec3<T> const& vertex) { count += vertex.x > T(0); });
@@ -54,6 +56,8 @@ int every_function() noexcept {
     count += keep(&fit_cascades<T>);
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
     count += keep(&row<T>, &from_rows<T>, &nowhere<T>);
+    count += keep(&add_map<T>, &caster_masks<T>);
+    count += map_range(0).first;
     count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
     count += keep(&tap_weight<T>);
     count += keep(&is_positive_infinity<T>, &safe_normalize<T>);
