@@ -32,6 +32,32 @@ inline void widen(T& lo, T& hi, T least) noexcept {
     hi = middle + least * T(0.5);
 }
 
+// The box around a body's bounds in light space, as fit_box promises it.
+template <class T>
+[[nodiscard]] inline LightBox<T> box_around(LightBasis<T> const& basis, Aabb<T> const& body, int map_size,
+                                            T margin_texels) noexcept {
+    LightBox<T> box;
+    T const largest = largest_of(body.hi - body.lo);
+    T const rounding = T(4) * std::numeric_limits<T>::epsilon() * largest_of(body);
+    T const texels = map_size > 1 ? T(map_size) : T(1);
+    // A micrometre: the one point at the origin has no scale of its own.
+    T const least = std::fmax(std::fmax(largest / texels, rounding), T(1e-6));
+    box.basis = basis;
+    for (int axis = 0; axis < 2; ++axis) {
+        T lo = body.lo[axis], hi = body.hi[axis];
+        widen(lo, hi, least);
+        T const usable = usable_texels(map_size, margin_texels);
+        T const margin = T(0.5) * (texels - usable) / usable * (hi - lo);
+        // The rounding of the corners themselves, which margin 0 would leave outside.
+        box.lo[axis] = lo - margin - rounding;
+        box.hi[axis] = hi + margin + rounding;
+    }
+    box.depth_lo = body.lo.z - rounding;
+    box.depth_hi = body.hi.z + rounding;
+    widen(box.depth_lo, box.depth_hi, std::fmax(rounding, T(1e-6)));
+    return box;
+}
+
 }  // namespace detail
 
 // Each corner lies at least `margin_texels` texels inside the four sides, and some corner exactly so at each of them;
@@ -42,32 +68,13 @@ inline void widen(T& lo, T& hi, T least) noexcept {
 template <class T>
 [[nodiscard]] inline LightBox<T> fit_box(LightBasis<T> const& basis, std::array<Vec3<T>, 8> const& corners_in_world,
                                          int map_size, T margin_texels) noexcept {
-    LightBox<T> box;
-    if (!detail::has_unit_axes(basis)) return box;
+    if (!detail::has_unit_axes(basis)) return {};
     Aabb<T> body;
     for (Vec3<T> const& corner : corners_in_world) {
-        if (!all_finite(corner) || !(detail::largest_of(corner) <= detail::farthest_metres<T>)) return box;
+        if (!all_finite(corner) || !(detail::largest_of(corner) <= detail::farthest_metres<T>)) return {};
         body = merge(body, in_light(basis, corner));
     }
-    T const largest = detail::largest_of(body.hi - body.lo);
-    T const rounding = T(4) * std::numeric_limits<T>::epsilon() * detail::largest_of(body);
-    T const texels = map_size > 1 ? T(map_size) : T(1);
-    // A micrometre: the one point at the origin has no scale of its own.
-    T const least = std::fmax(std::fmax(largest / texels, rounding), T(1e-6));
-    box.basis = basis;
-    for (int axis = 0; axis < 2; ++axis) {
-        T lo = body.lo[axis], hi = body.hi[axis];
-        detail::widen(lo, hi, least);
-        T const usable = usable_texels(map_size, margin_texels);
-        T const margin = T(0.5) * (texels - usable) / usable * (hi - lo);
-        // The rounding of the corners themselves, which margin 0 would leave outside.
-        box.lo[axis] = lo - margin - rounding;
-        box.hi[axis] = hi + margin + rounding;
-    }
-    box.depth_lo = body.lo.z - rounding;
-    box.depth_hi = body.hi.z + rounding;
-    detail::widen(box.depth_lo, box.depth_hi, std::fmax(rounding, T(1e-6)));
-    return box;
+    return detail::box_around(basis, body, map_size, margin_texels);
 }
 
 }  // namespace v0
