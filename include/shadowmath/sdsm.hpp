@@ -135,8 +135,10 @@ inline void fit_samples_of(Cascade<T>& cascade, SampleRays<T> const& rays, Aabb<
     MapSide<T> const x = side(0), y = side(1);
     T const entry = light_entry(rays.basis, Vec2<T>(x.lo, y.lo), Vec2<T>(x.hi, y.hi), casters);
     if (!(entry <= sides.depth_hi)) return;
-    // As for depth_range: a depth buffer tells nothing apart in more.
-    T const deepest = sides.depth_lo - T(65536) * ((x.hi - x.lo) + (y.hi - y.lo) + (sides.depth_hi - sides.depth_lo));
+    // A depth buffer tells nothing apart in more, as in depth_range. The way from the eye counts: what is seen may be a
+    // single point.
+    T const size = (x.hi - x.lo) + (y.hi - y.lo) + (sides.depth_hi - sides.depth_lo) + largest_of(box);
+    T const deepest = sides.depth_lo - T(65536) * size;
     T const reach = options.pancake ? sides.depth_lo : (entry > deepest ? entry : deepest);
     T const depth_lo = reach < sides.depth_lo ? reach : sides.depth_lo;
     T const depth_scale = T(1) / (sides.depth_hi - depth_lo);

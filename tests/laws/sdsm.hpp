@@ -30,7 +30,8 @@ template <class T>
     return !truth.visible || Wide(entry) <= truth.lo + rounding;
 }
 
-// As holds, for a sample given relative to the eye: `rounding` metres in light space are what its scalar type lost.
+// As holds, for a sample given relative to the eye: `rounding` metres in light space are what its scalar type lost. The
+// depth row adds its own, of scale and offset, to what may be a small part of the whole depth.
 template <class T>
 [[nodiscard]] bool holds_sample(ShadowMap<T> const& map, SampleRays<T> const& rays, Vec3<T> const& from_eye,
                                 int map_size, T margin_texels, bool pancake, long double rounding) {
@@ -43,7 +44,8 @@ template <class T>
     Vec4<Wide> const at = canonical * Vec4<Wide>(world, 1);
     auto const lost = [&](int r) { return rounding * glm::length(Vec3<Wide>(row(canonical, r))); };
     Wide const side = 1 - 2 * Wide(margin_texels) / map_size;
-    bool const deep_enough = at.z <= 1 + lost(2) && (pancake || at.z >= -lost(2));
+    Wide const deep = lost(2) + 4 * static_cast<Wide>(std::numeric_limits<T>::epsilon());
+    bool const deep_enough = at.z <= 1 + deep && (pancake || at.z >= -deep);
     return at.w == 1 && std::abs(at.x) <= side + lost(0) && std::abs(at.y) <= side + lost(1) && deep_enough;
 }
 
