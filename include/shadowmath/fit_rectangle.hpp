@@ -104,7 +104,7 @@ template <class T>
         // Quarter turns, until the new x is within an eighth of the last.
         if (std::abs(glm::dot(x, last)) < std::abs(x.x * last.y - x.y * last.x)) x = Vec2<T>(-x.y, x.x);
         if (glm::dot(x, last) < T(0)) x = -x;
-        return detail::box_around(rolled(basis, x.x, x.y), bounds_along(x.x, x.y), map_size, margin_texels);
+        return box_around(rolled(basis, x.x, x.y), bounds_along(x.x, x.y), map_size, margin_texels);
     };
     // Widened and rounded, the least may have become more than the plain one.
     LightBox<T> const turned = box_along(best), straight = box_along(Vec2<T>(T(1), T(0)));

@@ -52,6 +52,11 @@
 // The one call.
 #include <shadowmath/cascades.hpp>
 
+// The same for what is seen, pixel by pixel.
+#include <shadowmath/sample_bounds.hpp>
+#include <shadowmath/sample_depths.hpp>
+#include <shadowmath/sdsm.hpp>
+
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>
