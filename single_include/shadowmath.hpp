@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// shadowmath 0.1.0: all of its headers as one, made by scripts/amalgamate. For the folder of headers, and for
-// why each is as it is, see the project. Take the one or the other: both in one file define everything twice.
+// shadowmath 0.1.0.
+// All of its headers as one, made by scripts/amalgamate. Take this file or the folder of headers: both in one
+// translation unit define everything twice.
 #pragma once
 
 #include <array>
@@ -1149,21 +1150,18 @@ inline void widen(T& lo, T& hi, T least) noexcept {
 
 }  // namespace detail
 
-// Each corner lies at least `margin_texels` texels inside the four sides, and some corner exactly so at each of them;
-// depth runs from the first corner to the last. A flat body is widened to a texel of its largest extent, and to what
-// the scalar type can tell apart. Corners that are not finite or beyond 1e18 m, and axes that are not unit, give the
-// box [-1, 1]^2 x [0, 1]; a map without room for the margin (faults_of_margin) is treated as one with a single usable
-// texel.
+// The body, given by its bounds in light space, lies `margin_texels` texels inside the four sides; depth runs from its
+// first point to its last. A flat body is widened to a texel of its largest extent, and to what the scalar type can
+// tell apart. Bounds that are empty, not finite or beyond 1e18 m, and axes that are not unit, give the box
+// [-1, 1]^2 x [0, 1]; a map without room for the margin (faults_of_margin) is treated as one with one usable texel.
 template <class T>
-[[nodiscard]] inline LightBox<T> fit_box(LightBasis<T> const& basis, std::array<Vec3<T>, 8> const& corners_in_world,
-                                         int map_size, T margin_texels) noexcept {
+[[nodiscard]] inline LightBox<T> box_around(LightBasis<T> const& basis, Aabb<T> const& body_in_light, int map_size,
+                                            T margin_texels) noexcept {
     LightBox<T> box;
-    if (!detail::has_unit_axes(basis)) return box;
-    Aabb<T> body;
-    for (Vec3<T> const& corner : corners_in_world) {
-        if (!all_finite(corner) || !(detail::largest_of(corner) <= detail::farthest_metres<T>)) return box;
-        body = merge(body, in_light(basis, corner));
-    }
+    Aabb<T> const& body = body_in_light;
+    if (!detail::has_unit_axes(basis) || !all_finite(body) || is_empty(body) ||
+        !(detail::largest_of(body) <= T(2) * detail::farthest_metres<T>))
+        return box;
     T const largest = detail::largest_of(body.hi - body.lo);
     T const rounding = T(4) * std::numeric_limits<T>::epsilon() * detail::largest_of(body);
     T const texels = map_size > 1 ? T(map_size) : T(1);
@@ -1175,7 +1173,7 @@ template <class T>
         detail::widen(lo, hi, least);
         T const usable = usable_texels(map_size, margin_texels);
         T const margin = T(0.5) * (texels - usable) / usable * (hi - lo);
-        // The rounding of the corners themselves, which margin 0 would leave outside.
+        // The rounding of the points themselves, which margin 0 would leave outside.
         box.lo[axis] = lo - margin - rounding;
         box.hi[axis] = hi + margin + rounding;
     }
@@ -1183,6 +1181,19 @@ template <class T>
     box.depth_hi = body.hi.z + rounding;
     detail::widen(box.depth_lo, box.depth_hi, std::fmax(rounding, T(1e-6)));
     return box;
+}
+
+// box_around the eight corners. Corners that are not finite or beyond 1e18 m give the box [-1, 1]^2 x [0, 1].
+template <class T>
+[[nodiscard]] inline LightBox<T> fit_box(LightBasis<T> const& basis, std::array<Vec3<T>, 8> const& corners_in_world,
+                                         int map_size, T margin_texels) noexcept {
+    if (!detail::has_unit_axes(basis)) return {};
+    Aabb<T> body;
+    for (Vec3<T> const& corner : corners_in_world) {
+        if (!all_finite(corner) || !(detail::largest_of(corner) <= detail::farthest_metres<T>)) return {};
+        body = merge(body, in_light(basis, corner));
+    }
+    return box_around(basis, body, map_size, margin_texels);
 }
 
 }  // namespace v0
@@ -1772,13 +1783,14 @@ template <class T>
 //
 // The body is its edges, each with the two faces that meet there. A plane shortens edges; every face that it cuts is
 // left with two ends, and the line between them is a new edge, shared with the new face. So nothing ever needs to be
-// in order. Use it to bound what a map must hold; for a box alone bounds.hpp is enough.
+// in order. Each face also keeps its own plane, which sweep.hpp follows the light with. Use it to bound what a map must
+// hold; for a box alone bounds.hpp is enough.
 
 namespace shadowmath {
 inline namespace v0 {
 
-// Six faces to begin with and up to eighteen cuts: a polyhedron of f faces has at most 3 f - 6 edges.
-inline constexpr int max_body_faces = 24;
+// Six faces to begin with and up to twenty-six cuts: a polyhedron of f faces has at most 3 f - 6 edges.
+inline constexpr int max_body_faces = 32;
 inline constexpr int max_body_edges = 3 * max_body_faces - 6;
 
 template <class T>
@@ -1789,11 +1801,13 @@ struct ConvexBody {
         std::array<std::uint8_t, 2> face;
     };
     std::array<Edge, max_body_edges> edges;
-    int edge_count = 0;  // 0: nothing left
+    std::array<Vec4<T>, max_body_faces> half_space;  // of each face, >= 0 inside, of any length; 0 where none is known
+    int edge_count = 0;                              // 0: nothing left
     int face_count = 0;
 };
 
-// From eight corners whose indices differ in one bit along an edge: a box, a view volume.
+// From eight corners whose indices differ in one bit along an edge: a box, a view volume. A face without area has no
+// plane of its own.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> convex_body(std::array<Vec3<T>, 8> const& corners) noexcept {
     ConvexBody<T> body;
@@ -1808,6 +1822,29 @@ template <class T>
                 corners[i | 1u << axis],
                 {static_cast<std::uint8_t>(2 * u + (i >> u & 1u)), static_cast<std::uint8_t>(2 * v + (i >> v & 1u))}};
         }
+    for (unsigned face = 0; face < 6; ++face) {
+        unsigned const axis = face / 2, at = (face & 1u) << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+        // The diagonals span the face even where two of its corners are one.
+        Vec3<T> const across = corners[at | u | v] - corners[at], aside = corners[at | v] - corners[at | u];
+        Vec3<T> const normal = safe_normalize(glm::cross(across, aside)).direction;
+        Vec3<T> const middle = (corners[at] + corners[at | u | v]) * T(0.5);
+        Vec3<T> const opposite = (corners[at ^ 1u << axis] + corners[(at ^ 1u << axis) | u | v]) * T(0.5);
+        T const sign = glm::dot(normal, opposite - middle) < T(0) ? T(-1) : T(1);
+        body.half_space[face] = sign * Vec4<T>(normal, -glm::dot(normal, middle));
+    }
+    return body;
+}
+
+// A box: its planes are known even where it is flat.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> convex_body(Aabb<T> const& box) noexcept {
+    ConvexBody<T> body = convex_body(corners(box));
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3<T> normal(T(0));
+        normal[axis] = T(1);
+        body.half_space[static_cast<unsigned>(2 * axis)] = Vec4<T>(normal, -box.lo[axis]);
+        body.half_space[static_cast<unsigned>(2 * axis + 1)] = Vec4<T>(-normal, box.hi[axis]);
+    }
     return body;
 }
 
@@ -1827,6 +1864,8 @@ template <class T>
     SHADOWMATH_ASSERT(body.face_count < max_body_faces, "a convex body was cut too often");
     if (body.face_count >= max_body_faces) return body;
     ConvexBody<T> kept;
+    kept.half_space = body.half_space;
+    kept.half_space[static_cast<unsigned>(body.face_count)] = half_space;
     auto const add = [&kept](typename ConvexBody<T>::Edge const& edge) {
         if (kept.edge_count < max_body_edges) kept.edges[static_cast<unsigned>(kept.edge_count++)] = edge;
     };
@@ -1855,31 +1894,374 @@ template <class T>
     return kept;
 }
 
+// The same body elsewhere.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> translated(ConvexBody<T> const& body, Vec3<T> const& offset) noexcept {
+    ConvexBody<T> moved = body;
+    for (int i = 0; i < body.edge_count; ++i) {
+        moved.edges[static_cast<unsigned>(i)].a += offset;
+        moved.edges[static_cast<unsigned>(i)].b += offset;
+    }
+    for (int i = 0; i < body.face_count; ++i) {
+        Vec4<T>& plane = moved.half_space[static_cast<unsigned>(i)];
+        plane.w -= glm::dot(Vec3<T>(plane), offset);
+    }
+    return moved;
+}
+
 // What a view sees of a box, RELATIVE TO THE EYE: add view.pose.position for world points. Boxes of +-FLT_MAX are cut
 // to the bounds of the view before any arithmetic. A valid view with a finite z_far; an empty box gives an empty body.
+// `slack_metres` moves every plane outward: a wedge thinner than a rounding then loses nothing of its tip.
 template <class T>
-[[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world) noexcept {
+[[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world,
+                                                T slack_metres = T(0)) noexcept {
     if (is_empty(box_in_world)) return {};
     Vec3<T> const &x = view.pose.right, &y = view.pose.up, &z = view.pose.forward;
     ViewVolume<T> centred = view;
     centred.pose.position = Vec3<T>(T(0));
     // NOTE: the square of this bound, times a few, still fits into a float.
     Aabb<T> const bound{Vec3<T>(T(-1e12)), Vec3<T>(T(1e12))};
-    Aabb<T> const relative{box_in_world.lo - view.pose.position, box_in_world.hi - view.pose.position};
-    Aabb<T> const box = intersect(intersect(relative, bounds_of(corners(centred))), bound);
+    Vec3<T> const slack(slack_metres);
+    Aabb<T> const relative{box_in_world.lo - view.pose.position - slack, box_in_world.hi - view.pose.position + slack};
+    Aabb<T> const seen = bounds_of(corners(centred));
+    Aabb<T> const box = intersect(intersect(relative, Aabb<T>{seen.lo - slack, seen.hi + slack}), bound);
     if (is_empty(box)) return {};
     bool const flat = view.kind == ViewKind::orthographic;
-    auto const side = [&z, flat](Vec3<T> const& inward, T limit) {
-        if (flat) return Vec4<T>(inward, -limit);
-        return Vec4<T>(safe_normalize(inward - z * limit).direction, T(0));
+    auto const side = [&z, flat, slack_metres](Vec3<T> const& inward, T limit) {
+        if (flat) return Vec4<T>(inward, slack_metres - limit);
+        return Vec4<T>(safe_normalize(inward - z * limit).direction, slack_metres);
     };
-    ConvexBody<T> body = convex_body(corners(box));
+    ConvexBody<T> body = convex_body(box);
     body = clipped(body, side(x, view.left));
     body = clipped(body, side(-x, -view.right));
     body = clipped(body, side(y, view.bottom));
     body = clipped(body, side(-y, -view.top));
-    body = clipped(body, Vec4<T>(z, -view.z_near));
-    return clipped(body, Vec4<T>(-z, view.z_far));
+    body = clipped(body, Vec4<T>(z, slack_metres - view.z_near));
+    return clipped(body, Vec4<T>(-z, view.z_far + slack_metres));
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/sweep.hpp ========
+//
+// A convex body swept along the light: where its shadow's casters are, and where its own shadow falls. As half-spaces:
+// to cull casters with, to cut boxes with.
+//
+//        light                    One formula for suns and spots. With l the homogeneous light and h a face's
+//     |    |    |                 half-space, the face is lit when h . l > 0. Where a lit face h1 and an unlit one h2
+//     |  __|__  |  <- silhouette  meet, the plane through their edge along the light is
+//     | /     \ |
+//     |/  body \|                     h = h1 (-h2 . l) + h2 (h1 . l),     so that h . l = 0:
+//      \_______/   <- unlit faces
+//                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself,
+// whatever rounding did to its edges. No edge is ever measured, so short ones do no harm.
+//
+// Source: silhouette planes are common for view frusta (by a table of 64 cases in some engines). Departures: any convex
+// body, spots, and padding for filters and for the sun's radius.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Where all of them are >= 0: the dot product with (p, 1), metres from each plane. A frustum on a box gives ten or so;
+// what would be more than fit is left out, which only culls less.
+template <class T>
+struct HalfSpaces {
+    std::array<Vec4<T>, max_body_faces> at;  // with unit normals
+    int count = 0;                           // 0: everywhere
+    bool visible = false;                    // false: of no body, nowhere
+
+    [[nodiscard]] Vec4<T> const* begin() const noexcept { return at.data(); }
+    [[nodiscard]] Vec4<T> const* end() const noexcept { return at.data() + count; }
+};
+
+// How much a caster may stand beside the body and still matter to it.
+template <class T>
+struct SweepPadding {
+    T metres = T(0);      // everywhere: filter, bias, a spot's own radius; >= 0
+    T sun_slope = T(0);   // tan of the sun's angular radius: the sweep widens by this for a metre of height; >= 0
+};
+
+namespace detail {
+
+template <class T>
+inline void add(HalfSpaces<T>& planes, Vec4<T> const& plane) noexcept {
+    T const length = glm::length(Vec3<T>(plane));
+    if (length > T(0) && planes.count < max_body_faces)
+        planes.at[static_cast<unsigned>(planes.count++)] = plane / length;
+}
+
+}  // namespace detail
+
+// Every point of the body and every point on the way from there to the light is inside, `padding` farther out. `source`
+// is homogeneous(light), relative to what the body is relative to; its negative sweeps away from the light. A body
+// around a spot is all faces, and comes back as itself.
+template <class T>
+[[nodiscard]] inline HalfSpaces<T> swept_to_light(ConvexBody<T> const& body, Vec4<T> const& source,
+                                                  SweepPadding<T> const& padding = {}) noexcept {
+    HalfSpaces<T> swept;
+    swept.visible = body.edge_count > 0;
+    std::array<T, max_body_faces> lit{};
+    std::array<bool, max_body_faces> used{};
+    for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face)
+        lit[face] = glm::dot(body.half_space[face], source);
+    for (int i = 0; i < body.edge_count; ++i) {
+        auto const [f, g] = body.edges[static_cast<unsigned>(i)].face;
+        used[f] = used[g] = true;
+        // An unlit face along the light is the silhouette's plane itself, and comes below.
+        if ((lit[f] > T(0) && lit[g] < T(0)) || (lit[g] > T(0) && lit[f] < T(0)))
+            detail::add(swept, body.half_space[f] * std::abs(lit[g]) + body.half_space[g] * std::abs(lit[f]));
+    }
+    for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face)
+        if (used[face] && !(lit[face] > T(0))) detail::add(swept, body.half_space[face]);
+
+    Vec3<T> const travel(source);
+    bool const widens = padding.sun_slope > T(0) && source.w == T(0);
+    for (Vec4<T>& plane : swept.at) {
+        if (&plane == swept.end()) break;
+        Vec3<T> normal(plane);
+        // The way to the edge of the sun must not leave through the plane: its normal rises at least by the sun's sine.
+        T const rise = -glm::dot(normal, travel), sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+        if (widens && rise < sine) {
+            Vec3<T> const level = safe_normalize(normal + travel * rise).direction;
+            normal = safe_normalize(level - travel * padding.sun_slope).direction;
+            T support = std::numeric_limits<T>::max();
+            for_each_vertex(body, [&](Vec3<T> const& v) { support = std::fmin(support, glm::dot(normal, v)); });
+            plane = Vec4<T>(normal, -support);
+        }
+        plane.w += padding.metres;
+    }
+    return swept;
+}
+
+// False only where the box is outside one of the planes: such a caster has nothing to do with the body.
+template <class T>
+[[nodiscard]] inline bool may_meet(HalfSpaces<T> const& planes, Aabb<T> const& box) noexcept {
+    if (!planes.visible || is_empty(box)) return false;
+    for (Vec4<T> const& plane : planes) {
+        T distance = plane.w;
+        for (int axis = 0; axis < 3; ++axis)
+            distance += plane[axis] * (plane[axis] > T(0) ? box.hi[axis] : box.lo[axis]);
+        if (distance < T(0)) return false;
+    }
+    return true;
+}
+
+// The part of a body inside all planes; planes that miss it cost nothing. Where a body has run out of faces it comes
+// back larger than it should be, never smaller.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> clipped(ConvexBody<T> const& body, HalfSpaces<T> const& planes) noexcept {
+    if (!planes.visible) return {};
+    ConvexBody<T> part = body;
+    for (Vec4<T> const& plane : planes) {
+        bool cuts = false;
+        for_each_vertex(part, [&](Vec3<T> const& v) { cuts = cuts || glm::dot(plane, Vec4<T>(v, T(1))) < T(0); });
+        if (cuts && part.face_count < max_body_faces) part = clipped(part, plane);
+    }
+    return part;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/fit_focus.hpp ========
+//
+// What a map for a sun must hold, and not a corner more: the receivers that the eye sees and that something can
+// shadow, and of the casters only those whose shadow it sees. Both as convex bodies, not as boxes.
+//
+//     focus.receivers = slice of the view  n  receivers' box  n  casters' box swept down the light
+//     focus.casters   = receivers swept up to the light           half-spaces, to cull with
+//     focus.depth     = from the first caster in there to the last receiver
+//
+// Fit any rectangle around it (fit_focus, fit_rectangle). Points outside that rectangle must read as lit: nothing that
+// casts reaches them, or nobody sees them.
+//
+// Source: Wimmer, Scherzer, Purgathofer 2004, the body B. Departures: planes that cut instead of points that are added,
+// so the swept part needs no hull; receivers that no caster reaches are left out.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct Focus {
+    ConvexBody<T> receivers;  // world
+    HalfSpaces<T> casters;    // world; may_meet is false only for what casts on none of them
+    DepthRange<T> depth;      // metres along the light, from the world origin
+    T first_receiver = T(0);  // where the depth may begin if casters are pancaked
+    bool visible = false;     // false: nobody sees a shadow here
+};
+
+// Every point of the slice inside `receivers` and below anything inside `casters` is in focus, and so is everything of
+// `casters` between it and the light; `padding` widens the casters' half-spaces only. Depth is no more than what those
+// span, but for rounding. Not visible: a spot, a light or view with faults, an endless slice, or something beyond 1e12
+// m; and where nothing is seen or nothing casts on it. Casters higher above the slice than 1024 times its size, and
+// not below that, are cut.
+template <class T>
+[[nodiscard]] inline Focus<T> focus_of(ViewVolume<T> const& slice, Light<T> const& light, Aabb<T> const& casters,
+                                       Aabb<T> const& receivers, SweepPadding<T> const& padding = {}) noexcept {
+    Focus<T> focus;
+    constexpr T eps = std::numeric_limits<T>::epsilon();
+    constexpr T farthest = T(1e12);
+    bool const usable = light.kind == LightKind::directional && !unusable(light) && !faults_of(slice).any() &&
+                        !is_positive_infinity(&slice.z_far) && all_finite(casters) && all_finite(receivers) &&
+                        !is_empty(casters) && !is_empty(receivers);
+    if (!usable) return focus;
+    Vec3<T> const eye = slice.pose.position;
+    Aabb<T> const seen = bounds_of(corners(slice));
+    if (!all_finite(seen) || !(detail::largest_of(seen) <= farthest) || !(detail::largest_of(eye) <= farthest))
+        return focus;
+    T const size = detail::largest_of(seen.hi - seen.lo);
+    // Sixteen roundings stand behind a vertex: a plane, a cut, and the eye's own place.
+    T const slack = T(16) * eps * (size + detail::largest_of(seen) + detail::largest_of(eye));
+    Vec4<T> const down(light.direction, T(0));
+
+    Vec3<T> const reach(T(1024) * size);
+    Aabb<T> const near_enough{seen.lo - reach, seen.hi + reach};
+    Aabb<T> const cast_box = intersect(casters, near_enough);
+    if (is_empty(cast_box)) return focus;
+    ConvexBody<T> const casting = convex_body(cast_box);
+    SweepPadding<T> const rounding{slack, T(0)};
+    focus.receivers = clipped(translated(visible_body(slice, receivers, slack), eye),
+                              swept_to_light(casting, -down, rounding));
+    focus.casters = swept_to_light(focus.receivers, down, rounding);
+    ConvexBody<T> const shadowing = clipped(casting, focus.casters);
+    if (focus.receivers.edge_count == 0 || shadowing.edge_count == 0) return focus;
+    T first = std::numeric_limits<T>::max(), last = std::numeric_limits<T>::lowest();
+    for_each_vertex(focus.receivers, [&](Vec3<T> const& v) {
+        first = std::fmin(first, glm::dot(light.direction, v));
+        last = std::fmax(last, glm::dot(light.direction, v));
+    });
+    detail::widen(first, last, std::fmax(T(2) * slack, T(1e-6)));
+    focus.first_receiver = first - slack;
+    focus.depth = {focus.first_receiver, last + slack, true};
+    for_each_vertex(shadowing, [&](Vec3<T> const& v) {
+        focus.depth.lo = std::fmin(focus.depth.lo, glm::dot(light.direction, v) - slack);
+    });
+    if (padding.metres > T(0) || padding.sun_slope > T(0)) {
+        SweepPadding<T> wide = padding;
+        wide.metres = std::fmax(wide.metres, T(0)) + slack;
+        focus.casters = swept_to_light(focus.receivers, down, wide);
+    }
+    focus.visible = true;
+    return focus;
+}
+
+// The light-space box around the focus in the axes given: with sides inside those of fit_box for the whole slice, but
+// for rounding. Of a focus that is not visible, the box [-1, 1]^2 x [0, 1].
+template <class T>
+[[nodiscard]] inline LightBox<T> fit_focus(LightBasis<T> const& basis, Focus<T> const& focus, int map_size,
+                                           T margin_texels) noexcept {
+    if (!focus.visible || !detail::has_unit_axes(basis)) return {};
+    Aabb<T> body;
+    for_each_vertex(focus.receivers, [&](Vec3<T> const& v) { body = merge(body, in_light(basis, v)); });
+    LightBox<T> box = box_around(basis, body, map_size, margin_texels);
+    box.depth_lo = focus.depth.lo;
+    box.depth_hi = focus.depth.hi;
+    return box;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/fit_rectangle.hpp ========
+//
+// The smallest rectangle around a body as the light sees it, at whatever angle: never more texels than fit_box, a
+// quarter fewer over a view frustum in the mean. As with fit_box, size and place change as the camera turns, and
+// edges crawl; use it where fit_box would do.
+//
+//    ___________         A least rectangle has a side along an edge of the hull (Freeman and Shapira 1975). The hull's
+//   |   fit_box |        edges are the body's silhouette: those where a face that the light meets joins one that it
+//   | /\        |        does not. So each silhouette edge is tried, and no hull is ever built.
+//   |/  \__     |
+//   |\ least \_ |        Two angles can be equally good, and then the least one jumps between them. The angle of the
+//   |_\________\|        last frame is kept while its rectangle is within `hysteresis` of the least.
+//
+// Source: Freeman and Shapira, "Determining the minimum-area encasing rectangle for an arbitrary closed curve", CACM
+// 18(7), 1975. Departures: the silhouette for the hull; the angle's hysteresis.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Turned about the light: x goes to (cosine, sine) in the old axes. The two need not be of length 1 together.
+template <class T>
+[[nodiscard]] inline LightBasis<T> rolled(LightBasis<T> const& basis, T cosine, T sine) noexcept {
+    T const length = std::hypot(cosine, sine);
+    if (!(length > T(0))) return basis;
+    T const c = cosine / length, s = sine / length;
+    return {basis.x * c + basis.y * s, basis.y * c - basis.x * s, basis.depth};
+}
+
+// Square metres across the light.
+template <class T>
+[[nodiscard]] inline T area(LightBox<T> const& box) noexcept {
+    return (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y);
+}
+
+// As fit_box holds corners, this holds every vertex of the body (in world space), and area(box) is never more than that
+// of fit_box in the same basis. Of the four quarter turns the one nearest to `previous_x` is taken: the x axis of the
+// last frame's box, a world direction; or to basis.x where it is zero, or not finite, or along the light. Exactly its
+// direction is kept while the area is at most 1 + hysteresis times the least, and no more than fit_box's. Bodies that are empty, not
+// finite, or beyond 1e18 m give what fit_box gives for such corners.
+template <class T>
+[[nodiscard]] inline LightBox<T> fit_rectangle(LightBasis<T> const& basis, ConvexBody<T> const& body, int map_size,
+                                               T margin_texels, Vec3<T> const& previous_x = Vec3<T>(T(0)),
+                                               T hysteresis = T(0.1)) noexcept {
+    if (!detail::has_unit_axes(basis) || body.edge_count == 0) return {};
+    std::array<Vec3<T>, 2 * max_body_edges> vertex;  // in light space, edge by edge
+    unsigned count = 0;
+    bool sound = true;
+    Aabb<T> bounds;
+    for_each_vertex(body, [&](Vec3<T> const& v) {
+        sound = sound && all_finite(v) && detail::largest_of(v) <= detail::farthest_metres<T>;
+        vertex[count] = in_light(basis, v);
+        bounds = merge(bounds, vertex[count++]);
+    });
+    if (!sound) return {};
+
+    auto const bounds_along = [&](T c, T s) {
+        Aabb<T> turned;
+        for (unsigned i = 0; i < count; ++i)
+            turned = merge(turned, Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x,
+                                           vertex[i].z));
+        return turned;
+    };
+    auto const area_along = [&](Vec2<T> const& x) {
+        Aabb<T> const turned = bounds_along(x.x, x.y);
+        return (turned.hi.x - turned.lo.x) * (turned.hi.y - turned.lo.y);
+    };
+    T const plain = area_along(Vec2<T>(T(1), T(0)));
+    Vec2<T> best(T(1), T(0));
+    T least = plain;
+    for (int i = 0; i < body.edge_count; ++i) {
+        auto const [f, g] = body.edges[static_cast<unsigned>(i)].face;
+        auto const lit = [&](unsigned face) { return glm::dot(basis.depth, Vec3<T>(body.half_space[face])) > T(0); };
+        if (lit(f) == lit(g)) continue;
+        Vec2<T> const edge = Vec2<T>(vertex[2 * static_cast<unsigned>(i) + 1] - vertex[2 * static_cast<unsigned>(i)]);
+        T const length = std::hypot(edge.x, edge.y);
+        if (!(length > T(0))) continue;
+        T const needed = area_along(edge / length);
+        if (needed < least) {
+            least = needed;
+            best = edge / length;
+        }
+    }
+    // The previous direction, as far as it lies across this light.
+    Vec3<T> const before = all_finite(previous_x) ? safe_normalize(previous_x).direction : Vec3<T>(T(0));
+    Vec2<T> last(glm::dot(basis.x, before), glm::dot(basis.y, before));
+    T const across = std::hypot(last.x, last.y);
+    bool const has_last = across > T(1e-3);
+    last = has_last ? last / across : Vec2<T>(T(1), T(0));
+    T const slack = all_finite(&hysteresis, 1) && hysteresis > T(0) ? hysteresis : T(0);
+    if (has_last && area_along(last) <= std::fmin(least * (T(1) + slack), plain)) best = last;
+    auto const box_along = [&](Vec2<T> x) {
+        // Quarter turns, until the new x is within an eighth of the last.
+        if (std::abs(glm::dot(x, last)) < std::abs(x.x * last.y - x.y * last.x)) x = Vec2<T>(-x.y, x.x);
+        if (glm::dot(x, last) < T(0)) x = -x;
+        return box_around(rolled(basis, x.x, x.y), bounds_along(x.x, x.y), map_size, margin_texels);
+    };
+    // Widened and rounded, the least may have become more than the plain one.
+    LightBox<T> const turned = box_along(best), straight = box_along(Vec2<T>(T(1), T(0)));
+    return area(turned) <= area(straight) ? turned : straight;
 }
 
 }  // namespace v0
@@ -1987,7 +2369,7 @@ template <class T>
     Aabb<T> const near_enough{Vec3<T>(-reach_metres), Vec3<T>(reach_metres)};
     Aabb<T> const box = intersect(Aabb<T>{casters.lo - eye, casters.hi - eye}, near_enough);
     if (is_empty(box)) return {};
-    ConvexBody<T> shaft = convex_body(corners(box));
+    ConvexBody<T> shaft = convex_body(box);
     Vec4<T> const one(T(0), T(0), T(0), T(1));
     if (!rows.parallel) shaft = clipped(shaft, rows.along - one * rows.along_floor);
     shaft = clipped(shaft, one * last - rows.along);
@@ -2993,6 +3375,324 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/culling.hpp ========
+//
+// Which maps an object must be drawn into: a bit for each, and the range [first, last] that one instanced draw covers.
+//
+//        light              A caster counts for a map when it reaches into the shaft of light that ends in the map:
+//     |  A |                between its four sides, before its far end, and as far toward the light as you like.
+//   B |    | C              A counts although it lies above the near plane: it is drawn flat where depth is clamped,
+//     |____|   near         and lost where it is not. B and C cannot shadow anything that the map holds; D lies behind
+//     | map|                the last receiver.
+//     |____|   far
+//       D                   A map's matrix is all that is read, so sun, spot, warped and view-dependent maps mix.
+//
+// A box is outside a map when it is wholly outside ONE of the five planes: the usual test, which may keep a box that
+// passes diagonally by an edge of the shaft, and never drops one that reaches inside. Nothing is divided by w, so boxes
+// may lie astride the plane w = 0.
+//
+// Source: the range of splits of an object is that of Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: the near
+// side is open, and all maps of one sun are tested together: they look the same way and share their five normals.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Bit i: the i-th map.
+using MapMask = std::uint16_t;
+
+inline constexpr int max_caster_maps = 16;
+static_assert(max_splits <= max_caster_maps, "one mask holds all cascades");
+
+struct MapRange {
+    int first = 0;
+    int last = -1;  // first > last: no map
+};
+
+// The shafts of up to max_caster_maps maps, as add_map gives them to caster_mask.
+template <class T>
+struct CasterMaps {
+    // Up to four maps that look the same way. A point p is inside where half_normal . 2 p >= least, for all five sides.
+    struct Bundle {
+        Vec3<T> half_normal[5];  // left, right, bottom, top, far
+        T least[5][4] = {};
+        MapMask bit[4] = {};  // 0: no map here
+    };
+    Bundle bundle[max_caster_maps];
+    int bundle_count = 0;
+    int map_count = 0;  // those that were never visible count too, and keep their bit clear
+};
+
+// Boxes as structure of arrays: box i is [lo_x[i], hi_x[i]] x ...
+template <class T>
+struct BoxArrays {
+    T const* lo_x = nullptr;
+    T const* lo_y = nullptr;
+    T const* lo_z = nullptr;
+    T const* hi_x = nullptr;
+    T const* hi_y = nullptr;
+    T const* hi_z = nullptr;
+};
+
+namespace detail {
+
+// All numbers, and of size below 2^60 (which is above farthest_metres). By their bits (finite.hpp), and without a
+// branch among them, so that many cost little.
+[[nodiscard]] inline bool all_in_reach(float const* values, int count) noexcept {
+    std::uint32_t beyond = 0;
+    for (int i = 0; i < count; ++i) {
+        std::uint32_t bits;
+        std::memcpy(&bits, values + i, sizeof bits);
+        beyond |= (bits & 0x7fffffffu) + (0x80000000u - 0x5d800000u);
+    }
+    return (beyond & 0x80000000u) == 0;
+}
+
+[[nodiscard]] inline bool all_in_reach(double const* values, int count) noexcept {
+    constexpr std::uint64_t sign = 0x8000000000000000u;
+    std::uint64_t beyond = 0;
+    for (int i = 0; i < count; ++i) {
+        std::uint64_t bits;
+        std::memcpy(&bits, values + i, sizeof bits);
+        beyond |= (bits & ~sign) + (sign - 0x43b0000000000000u);
+    }
+    return (beyond & sign) == 0;
+}
+
+[[nodiscard]] inline bool all_in_reach(long double const* values, int count) noexcept {
+    for (int i = 0; i < count; ++i)
+        if (!all_finite(values + i, 1) || !(std::abs(values[i]) < 0x1p60L)) return false;
+    return true;
+}
+
+// lo > hi, infinite ends included; false where one is NaN, and no signal of one.
+template <class T>
+[[nodiscard]] inline bool are_crossed(T const& lo, T const& hi) noexcept {
+    T const below = -hi;
+    return (all_finite(&lo, 1) || is_positive_infinity(&lo)) && (all_finite(&hi, 1) || is_positive_infinity(&below)) &&
+           lo > hi;
+}
+
+// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates. 2 for sum and
+// difference of lo and hi, 6 for the roundings of a dot product and its normal, 4 for a normal shared by maps.
+template <class T>
+inline constexpr T box_slack = T(16) * std::numeric_limits<T>::epsilon();
+
+// xyz over its largest component, which is then 1, so that no product with a coordinate in reach overflows.
+template <class T>
+[[nodiscard]] inline Vec4<T> side_plane(Vec4<T> const& plane) noexcept {
+    T const largest = std::fmax(std::abs(plane.x), std::fmax(std::abs(plane.y), std::abs(plane.z)));
+    constexpr T beyond_all = T(0x1p70);
+    if (!(largest > T(0))) return Vec4<T>(T(0), T(0), T(0), plane.w < T(0) ? -beyond_all : beyond_all);
+    // Up by its own roundings.
+    T const offset = plane.w / largest * (T(1) + (plane.w < T(0) ? T(-4) : T(4)) * std::numeric_limits<T>::epsilon());
+    return Vec4<T>(plane.x / largest, plane.y / largest, plane.z / largest,
+                   offset < -beyond_all ? -beyond_all : (offset > beyond_all ? beyond_all : offset));
+}
+
+// How far a box reaches along the normal of a side. x2, y2, z2: the sum of its ends, which is twice its centre.
+template <class T>
+[[nodiscard]] inline T reach_of(Vec3<T> const& half_normal, T x2, T y2, T z2, T width, T height, T depth) noexcept {
+    return half_normal.x * x2 + half_normal.y * y2 + half_normal.z * z2 + std::abs(half_normal.x) * width +
+           std::abs(half_normal.y) * height + std::abs(half_normal.z) * depth;
+}
+
+// The maps of one bundle that something with these reaches is inside of.
+template <class T>
+[[nodiscard]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                               T const (&reach)[5]) noexcept {
+    std::uint32_t bits = 0;
+    for (int place = 0; place < 4; ++place) {
+        bool inside = true;
+        // NOTE: & and not &&: a branch would keep compilers from doing many boxes at once.
+        for (int side = 0; side < 5; ++side) inside = inside & (reach[side] >= bundle.least[side][place]);
+        bits |= inside ? std::uint32_t(bundle.bit[place]) : 0u;
+    }
+    return bits;
+}
+
+template <class T>
+[[nodiscard]] inline MapMask every_bit(CasterMaps<T> const& maps) noexcept {
+    unsigned mask = 0;
+    for (int b = 0; b < maps.bundle_count; ++b)
+        for (MapMask const bit : maps.bundle[b].bit) mask |= bit;
+    return static_cast<MapMask>(mask);
+}
+
+}  // namespace detail
+
+// The map gets the next bit. One that is not visible, or whose matrix is not finite, is never cast into. At most
+// max_caster_maps.
+template <class T>
+inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
+    SHADOWMATH_ASSERT(maps.map_count < max_caster_maps, "more maps than a mask has bits");
+    if (maps.map_count >= max_caster_maps) return;
+    auto const bit = static_cast<MapMask>(1u << maps.map_count++);
+    if (!map.visible || !all_finite(map.clip_from_world)) return;
+    // Halves: a sum of two finite numbers may overflow.
+    Mat4<T> const m = map.clip_from_world * T(0.5);
+    Vec4<T> const x = row(m, 0), y = row(m, 1), z = row(m, 2), w = row(m, 3);
+    Vec4<T> const last = map.clip.depth == DepthOrder::one_to_zero ? z : w - z;
+    typename CasterMaps<T>::Bundle own;
+    int side = 0;
+    for (Vec4<T> const& inner : {w + x, w - x, w + y, w - y, last}) {
+        Vec4<T> const plane = detail::side_plane(inner);
+        own.half_normal[side] = Vec3<T>(plane) * T(0.5);
+        own.least[side++][0] = -plane.w;
+    }
+    own.bit[0] = bit;
+    if (maps.bundle_count > 0) {
+        auto& bundle = maps.bundle[maps.bundle_count - 1];
+        T differ = T(0);
+        for (side = 0; side < 5; ++side)
+            differ = std::fmax(differ, detail::largest_of(bundle.half_normal[side] - own.half_normal[side]));
+        int place = 0;
+        while (place < 4 && bundle.bit[place] != 0) ++place;
+        if (place < 4 && differ <= T(2) * std::numeric_limits<T>::epsilon()) {
+            for (side = 0; side < 5; ++side) bundle.least[side][place] = own.least[side][0];
+            bundle.bit[place] = bit;
+            return;
+        }
+    }
+    maps.bundle[maps.bundle_count++] = own;
+}
+
+template <class T>
+[[nodiscard]] inline CasterMaps<T> caster_maps(ShadowMap<T> const* maps, int count) noexcept {
+    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "caster_maps needs maps");
+    CasterMaps<T> gathered;
+    for (int i = 0; i < count; ++i) add_map(gathered, maps[i]);
+    return gathered;
+}
+
+// Never misses: where any point of the world box lands between the sides of a map (w > 0) and not behind its far end,
+// the map's bit is set. Nor is it set elsewhere, but for the rule above and for boxes within 32 epsilon of the sum of
+// their coordinates' sizes. An empty box casts nowhere; one with a NaN, an infinity or a coordinate beyond 2^60 m in it
+// casts everywhere: a shadow too many is found sooner than one too few.
+template <class T>
+[[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Aabb<T> const& box) noexcept {
+    Vec3<T> const &lo = box.lo, &hi = box.hi;
+    if (!detail::all_in_reach(&lo.x, 3) || !detail::all_in_reach(&hi.x, 3)) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (detail::are_crossed(lo[axis], hi[axis])) return 0;
+        return detail::every_bit(maps);
+    }
+    if (lo.x > hi.x || lo.y > hi.y || lo.z > hi.z) return 0;
+    T const sizes = std::abs(lo.x) + std::abs(hi.x) + std::abs(lo.y) + std::abs(hi.y) + std::abs(lo.z) + std::abs(hi.z);
+    Vec3<T> const centre2 = lo + hi, extent = hi - lo + Vec3<T>(detail::box_slack<T> * sizes);
+    std::uint32_t mask = 0;
+    for (int b = 0; b < maps.bundle_count; ++b) {
+        auto const& bundle = maps.bundle[b];
+        T reach[5];
+        for (int side = 0; side < 5; ++side)
+            reach[side] = detail::reach_of(bundle.half_normal[side], centre2.x, centre2.y, centre2.z, extent.x,
+                                           extent.y, extent.z);
+        mask |= detail::bits_inside<T>(bundle, reach);
+    }
+    return static_cast<MapMask>(mask);
+}
+
+// As for a box, with the ball in its place; one of negative radius casts nowhere.
+template <class T>
+[[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Sphere<T> const& sphere) noexcept {
+    Vec3<T> const& centre = sphere.center;
+    if (detail::are_crossed(T(0), sphere.radius)) return 0;
+    if (!detail::all_in_reach(&centre.x, 3) || !detail::all_in_reach(&sphere.radius, 1)) return detail::every_bit(maps);
+    T const sizes = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + sphere.radius;
+    T const diameter = T(2) * sphere.radius + detail::box_slack<T> * sizes;
+    std::uint32_t mask = 0;
+    for (int b = 0; b < maps.bundle_count; ++b) {
+        auto const& bundle = maps.bundle[b];
+        T reach[5];
+        for (int side = 0; side < 5; ++side)
+            reach[side] = T(2) * glm::dot(bundle.half_normal[side], centre) +
+                          diameter * std::sqrt(glm::dot(bundle.half_normal[side], bundle.half_normal[side]));
+        mask |= detail::bits_inside<T>(bundle, reach);
+    }
+    return static_cast<MapMask>(mask);
+}
+
+namespace detail {
+
+inline constexpr int boxes_at_once = 64;
+
+// Straight loops of constant length over one bundle, for a compiler to turn into vector code: see caster_masks.
+template <class T>
+inline void mask_block(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, MapMask* masks) noexcept {
+    constexpr int n = boxes_at_once;
+    T x2[n], y2[n], z2[n], width[n], height[n], depth[n];
+    std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
+    for (int i = 0; i < n; ++i) {
+        T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
+        T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
+        T const grown = box_slack<T> * (std::abs(lo_x) + std::abs(hi_x) + std::abs(lo_y) + std::abs(hi_y) +
+                                        std::abs(lo_z) + std::abs(hi_z));
+        full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
+        mask[i] = 0;
+        x2[i] = lo_x + hi_x;
+        y2[i] = lo_y + hi_y;
+        z2[i] = lo_z + hi_z;
+        width[i] = hi_x - lo_x + grown;
+        height[i] = hi_y - lo_y + grown;
+        depth[i] = hi_z - lo_z + grown;
+    }
+    for (int b = 0; b < maps.bundle_count; ++b) {
+        typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
+        for (int i = 0; i < n; ++i) {
+            T reach[5];
+            for (int side = 0; side < 5; ++side)
+                reach[side] = reach_of(bundle.half_normal[side], x2[i], y2[i], z2[i], width[i], height[i], depth[i]);
+            mask[i] |= bits_inside<T>(bundle, reach);
+        }
+    }
+    for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
+}
+
+}  // namespace detail
+
+// masks[i] = caster_mask(maps, box i), for `count` boxes in one pass over memory for all maps; the six arrays and
+// `masks` hold `count` values each, do not overlap, and need no alignment. Where a box touches a plane to the last
+// bits, it may count in one and not in the other; both count every caster.
+template <class T>
+inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, int count, MapMask* masks) noexcept {
+    SHADOWMATH_ASSERT(
+        count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
+                       boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
+        "caster_masks needs six arrays of boxes and one of masks");
+    auto const from = [&boxes](int i) {
+        return BoxArrays<T>{boxes.lo_x + i, boxes.lo_y + i, boxes.lo_z + i,
+                            boxes.hi_x + i, boxes.hi_y + i, boxes.hi_z + i};
+    };
+    for (int begin = 0; begin < count; begin += detail::boxes_at_once) {
+        BoxArrays<T> const block = from(begin);
+        int const left = count - begin, length = left < detail::boxes_at_once ? left : detail::boxes_at_once;
+        bool const in_reach = detail::all_in_reach(block.lo_x, length) && detail::all_in_reach(block.lo_y, length) &&
+                              detail::all_in_reach(block.lo_z, length) && detail::all_in_reach(block.hi_x, length) &&
+                              detail::all_in_reach(block.hi_y, length) && detail::all_in_reach(block.hi_z, length);
+        if (in_reach && length == detail::boxes_at_once) {
+            detail::mask_block(maps, block, masks + begin);
+            continue;
+        }
+        for (int i = 0; i < length; ++i)
+            masks[begin + i] = caster_mask(maps, Aabb<T>{Vec3<T>(block.lo_x[i], block.lo_y[i], block.lo_z[i]),
+                                                         Vec3<T>(block.hi_x[i], block.hi_y[i], block.hi_z[i])});
+    }
+}
+
+// The least range that holds every map of the mask: the split range of GPU Gems 3, to draw last - first + 1 instances
+// of an object. Where the mask has a hole, the range draws into it for nothing.
+[[nodiscard]] constexpr MapRange map_range(MapMask mask) noexcept {
+    MapRange range;
+    for (int i = 0; i < max_caster_maps; ++i) {
+        if ((mask >> i & 1) == 0) continue;
+        if (range.first > range.last) range.first = i;
+        range.last = i;
+    }
+    return range;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/footprint.hpp ========
 //
 // The one number: how many eye pixels one texel of a shadow map covers, at a point of a surface. It is measured from
@@ -3097,10 +3797,13 @@ template <class T>
 //
 // The one call: a view, a light and two boxes in; one matrix a cascade out.
 //
-//   view ── splits ── slices ─┬─ fit ── depth range ── matrix      stable   bounding sphere on a texel grid: nothing
-//   light ── basis ───────────┘                                             shimmers when the camera moves or turns
-//                                                                   tight    light-space box: up to twice the texels,
-//                                                                            and shadow edges crawl under motion
+//   view ── splits ── slices ─┬─ fit ── depth range ── matrix
+//   light ── basis ───────────┘
+//
+//   stable      bounding sphere on a texel grid: nothing shimmers when the camera moves or turns
+//   tight       light-space box: up to twice the texels, and shadow edges crawl under motion
+//   rectangle   the smallest rectangle at any angle: a quarter fewer metres than tight
+//   focus       the smallest around what can be seen in shadow: receivers in view that casters are above
 //
 // Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own,
 // so a renderer that needs another order calls them itself.
@@ -3112,7 +3815,7 @@ template <class T>
 namespace shadowmath {
 inline namespace v0 {
 
-enum class CascadeFit : std::uint8_t { stable, tight };
+enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus };
 
 template <class T>
 struct CascadeOptions {
@@ -3181,33 +3884,53 @@ template <class T>
 }
 
 template <class T>
-inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
-                            Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
-                            CascadeOptions<T> const& options) noexcept {
+inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
+                       DepthRange<T> const& slice_depth, Aabb<T> const& casters, Aabb<T> const& receivers,
+                       T margin_texels, CascadeOptions<T> const& options) noexcept {
+    TexelGrid<T> const grid = texel_grid(basis, bounding_sphere(part), options.map_size, margin_texels);
+    cascade.map.faults |= grid.faults;
+    if (!grid.visible) return;
+    LightBox<T> const sides = on_grid(grid, slice_depth.lo, slice_depth.hi);
+    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
+    if (!depth.visible) return;
+    cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
+    cascade.map.visible = true;
+    cascade.texel_metres = grid.texel_metres;
+    cascade.depth_metres = depth.hi - depth.lo;
+}
+
+// `previous_x`: of the map's x axis in the last frame.
+template <class T>
+inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Light<T> const& light,
+                            Vec3<T> const& previous_x, Aabb<T> const& casters, Aabb<T> const& receivers,
+                            T margin_texels, CascadeOptions<T> const& options) noexcept {
+    LightBasis<T> const basis = light_basis(light.direction);
     std::array<Vec3<T>, 8> const body = corners(part);
     LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
-    DepthRange<T> const slice_depth{sides.depth_lo, sides.depth_hi, true};
-    TexelGrid<T> grid;
+    DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
     if (options.fit == CascadeFit::stable) {
-        grid = texel_grid(basis, bounding_sphere(part), options.map_size, margin_texels);
-        cascade.map.faults |= grid.faults;
-        if (!grid.visible) return;
-        sides = on_grid(grid, sides.depth_lo, sides.depth_hi);
+        fit_stable(cascade, part, basis, depth, casters, receivers, margin_texels, options);
+        return;
     }
-    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
+    if (options.fit == CascadeFit::focus) {
+        Focus<T> const focus = focus_of(part, light, casters, receivers);
+        if (!focus.visible) return;
+        sides = fit_rectangle(basis, focus.receivers, options.map_size, margin_texels, previous_x);
+        depth = focus.depth;
+        if (options.pancake) depth.lo = focus.first_receiver;
+    } else {
+        if (options.fit == CascadeFit::rectangle)
+            sides = fit_rectangle(basis, convex_body(body), options.map_size, margin_texels, previous_x);
+        depth = depth_range(sides, depth, casters, receivers, options.pancake);
+    }
     if (!depth.visible) return;
     sides.depth_lo = depth.lo;
     sides.depth_hi = depth.hi;
-    if (options.fit == CascadeFit::stable) {
-        cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
-        cascade.texel_metres = grid.texel_metres;
-    } else {
-        cascade.map.clip_from_world = clip_from_world(sides, options.clip);
-        Vec2<T> const texel = texel_metres(sides, options.map_size);
-        cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
-    }
-    cascade.depth_metres = depth.hi - depth.lo;
+    cascade.map.clip_from_world = clip_from_world(sides, options.clip);
     cascade.map.visible = true;
+    Vec2<T> const texel = texel_metres(sides, options.map_size);
+    cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
+    cascade.depth_metres = depth.hi - depth.lo;
 }
 
 }  // namespace detail
@@ -3215,10 +3938,13 @@ inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Ligh
 // Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its
 // slice, filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that
 // map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
-// does. `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault.
+// does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
+// `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
+// null: the last frame's, whose angles rectangles keep while they are nearly as good.
 template <class T>
 [[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
-                                              Aabb<T> const& receivers, CascadeOptions<T> const& options) noexcept {
+                                              Aabb<T> const& receivers, CascadeOptions<T> const& options,
+                                              Cascades<T> const* previous = nullptr) noexcept {
     Cascades<T> cascades;
     Faults faults = faults_of(light);
     ViewVolume<T> const seen = detail::shadowed_part(view, options.shadow_distance, faults);
@@ -3245,7 +3971,6 @@ template <class T>
         blend = all_finite(&options.blend, 1) && blend > T(1) ? T(1) : T(0);
         faults |= Fault::clamped_option;
     }
-    LightBasis<T> const basis = light_basis(light.direction);
     cascades.count = splits.count;
     cascades.faults = faults | splits.faults;
     for (int i = 0; i < splits.count; ++i) {
@@ -3255,10 +3980,508 @@ template <class T>
         ViewVolume<T> const part = slice(seen, cascade.range);
         if (is_empty(casters) || is_empty(receivers)) continue;
         if (light.kind == LightKind::directional) {
-            detail::fit_directional(cascade, part, basis, casters, receivers, margin_texels, options);
+            bool const has_previous = previous != nullptr && i < previous->count && previous->at[i].map.visible;
+            Vec3<T> const x = has_previous ? Vec3<T>(row(previous->at[i].map.clip_from_world, 0)) : Vec3<T>(T(0));
+            detail::fit_directional(cascade, part, light, x, casters, receivers, margin_texels, options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }
+        cascades.faults |= cascade.map.faults;
+    }
+    return cascades;
+}
+
+// For caster_mask: bit i is cascade i.
+template <class T>
+[[nodiscard]] inline CasterMaps<T> caster_maps(Cascades<T> const& cascades) noexcept {
+    CasterMaps<T> maps;
+    for (Cascade<T> const& cascade : cascades) add_map(maps, cascade.map);
+    return maps;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/sample_bounds.hpp ========
+//
+// The box in light space of what the eye sees in each split, measured sample by sample, merged from any number of
+// tiles or threads. The second half of sample-distribution shadow maps; sdsm.hpp is the whole.
+//
+// A sample is a pixel and an eye depth. Its place is taken from the sides of the view: depth times a direction, never
+// an inverse matrix, and relative to the eye, so a sample a metre away is exact to a micrometre wherever the eye is.
+// Three products and sums a coordinate, no division: a shader rounds alike (glsl/sample_bounds.glsl).
+//
+// Source: Lauritzen, Salvi, Lefohn, "Sample distribution shadow maps", I3D 2011.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// From pixels to light space.
+template <class T>
+struct SampleRays {
+    LightBasis<T> basis;
+    Vec3<T> eye{T(0)};      // in light space, metres from the world origin
+    Vec3<T> forward{T(0)};  // the eye's axes in light space
+    Vec3<T> right{T(0)};
+    Vec3<T> up{T(0)};
+    Vec2<T> first{T(0)};  // sides of the view at the centre of pixel (0, 0)
+    Vec2<T> step{T(0)};   // from one pixel to the next
+    ViewKind kind = ViewKind::perspective;
+    bool usable = false;  // false: all samples lie at the world origin
+    Faults faults;        // of view and light
+};
+
+// The view is seen by width * height pixels, (0, 0) at its left and bottom sides; a picture that counts rows from the
+// top turns its y over first. A view or light with faults gives no rays but those faults; a pose that is nearly
+// orthonormal is mended. Suns only: a spot is clamped_option.
+template <class T>
+[[nodiscard]] inline SampleRays<T> sample_rays(ViewVolume<T> const& view, Light<T> const& light, int width,
+                                               int height) noexcept {
+    SampleRays<T> rays;
+    rays.faults = faults_of(view) | faults_of(light);
+    if (light.kind != LightKind::directional || width < 1 || height < 1) rays.faults |= Fault::clamped_option;
+    if (rays.faults.any()) return rays;
+    T farthest = detail::largest_of(view.pose.position);
+    for (T const side : {view.left, view.right, view.bottom, view.top}) farthest = std::fmax(farthest, std::abs(side));
+    if (!(farthest <= detail::farthest_metres<T>)) {
+        rays.faults = Fault::precision_lost;
+        return rays;
+    }
+    Pose<T> const pose = orthonormalized(view.pose);
+    rays.basis = light_basis(light.direction);
+    rays.eye = in_light(rays.basis, pose.position);
+    rays.forward = in_light(rays.basis, pose.forward);
+    rays.right = in_light(rays.basis, pose.right);
+    rays.up = in_light(rays.basis, pose.up);
+    rays.step = Vec2<T>((view.right - view.left) / T(width), (view.top - view.bottom) / T(height));
+    rays.first = Vec2<T>(view.left, view.bottom) + rays.step * T(0.5);
+    rays.kind = view.kind;
+    rays.usable = true;
+    return rays;
+}
+
+// Light space relative to the eye, metres.
+template <class T>
+[[nodiscard]] inline Vec3<T> from_eye(SampleRays<T> const& rays, int x, int y, T depth) noexcept {
+    Vec2<T> const side = rays.first + rays.step * Vec2<T>(T(x), T(y));
+    Vec3<T> const aside = rays.right * side.x + rays.up * side.y;
+    return rays.kind == ViewKind::perspective ? (rays.forward + aside) * depth : rays.forward * depth + aside;
+}
+
+// One box a split. A sample near a plane counts for both neighbours: whoever looks it up may compute its depth a little
+// differently.
+template <class T>
+struct SampleBounds {
+    SliceRange<T> range[max_splits];  // metres of eye depth
+    Aabb<T> box[max_splits];          // light space relative to the eye; empty where nothing is seen
+    int count = 0;
+    Faults faults;  // of the splits
+};
+
+// No samples yet. `blend` as for slice_range.
+template <class T>
+[[nodiscard]] inline SampleBounds<T> no_bounds(Splits<T> const& splits, T blend = T(0)) noexcept {
+    SampleBounds<T> bounds;
+    bounds.count = splits.count;
+    bounds.faults = splits.faults;
+    for (int i = 0; i < splits.count; ++i) bounds.range[i] = slice_range(splits, i, blend);
+    return bounds;
+}
+
+// True for a depth that the range holds, to 2^-12 of the depth itself.
+template <class T>
+[[nodiscard]] inline bool is_served(SliceRange<T> const& range, T depth) noexcept {
+    return depth * (T(1) + T(0x1p-12)) >= range.begin && depth * (T(1) - T(0x1p-12)) < range.end;
+}
+
+// Takes in the sample of pixel (x, y) at an eye depth in metres. Depths that no_depths would not have counted, NaN
+// among them, are left out.
+template <class T>
+inline void add(SampleBounds<T>& bounds, SampleRays<T> const& rays, int x, int y, T const& depth) noexcept {
+    if (bounds.count == 0 || !all_finite(&depth, 1)) return;
+    if (!(depth >= bounds.range[0].begin && depth < bounds.range[bounds.count - 1].end)) return;
+    Vec3<T> const point = from_eye(rays, x, y, depth);
+    for (int i = 0; i < bounds.count; ++i)
+        if (is_served(bounds.range[i], depth)) bounds.box[i] = merge(bounds.box[i], point);
+}
+
+// Takes in all samples of another part of the same view, cut by the same splits. Order and grouping of parts never
+// matter, not by a bit.
+template <class T>
+inline void add(SampleBounds<T>& bounds, SampleBounds<T> const& part) noexcept {
+    for (int i = 0; i < bounds.count; ++i) bounds.box[i] = merge(bounds.box[i], part.box[i]);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/sample_depths.hpp ========
+//
+// How deep the eye really sees, and where to cut that: the depths of all visible samples in 512 bins, merged from any
+// number of tiles or threads, and splits that follow them. The first half of sample-distribution shadow maps; sdsm.hpp
+// is the whole.
+//
+//   z_near |....ooooooo............ooooo.ooo......| z_far       o  a sample
+//   even        |   |   |   |   |  |  |  |                      every split the same ratio of depths, from the first
+//               0       1       2      3                        sample to the last
+//   adaptive    |   |   |         |  |   |                      the same, but none starts where nothing is
+//
+// Both are one rule: with the least ratio r for which `count` splits, each from z to r z, reach the last sample. The
+// ratio is found by bisection with products alone: no logarithm, no power. A product is rounded alike by every
+// processor, so a shader finds the same splits to the last bit (glsl/sample_depths.glsl).
+//
+// Source: Lauritzen, Salvi, Lefohn, "Sample distribution shadow maps", I3D 2011. Departure: gaps are not looked for by
+// a threshold; the greedy cover skips them, and no other placing of as many splits has a smaller worst ratio.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int depth_bins = 512;
+inline constexpr int depth_bins_an_octave = 32;
+
+// The depths of samples that are seen; least and greatest of each bin exactly.
+template <class T>
+struct SampleDepths {
+    T z_near = T(0);  // samples from here, included
+    T z_far = T(0);   // to here, excluded, count
+    T lo[depth_bins];
+    T hi[depth_bins];  // below lo: an empty bin
+    std::uint64_t counted = 0;
+    std::uint64_t outside = 0;     // sky, and what lies before z_near or from z_far on
+    std::uint64_t not_finite = 0;  // ignored as well
+    Faults faults;                 // of the range
+};
+
+// No samples yet, of a view with this range of eye depth in metres: 0 <= z_near < z_far <= 1e18. Any other range is a
+// fault, and nothing will lie in it.
+template <class T>
+[[nodiscard]] inline SampleDepths<T> no_depths(T const& z_near, T const& z_far) noexcept {
+    SampleDepths<T> depths;
+    for (int i = 0; i < depth_bins; ++i) {
+        depths.lo[i] = std::numeric_limits<T>::max();
+        depths.hi[i] = T(-1);
+    }
+    if (!all_finite(&z_near, 1) || !all_finite(&z_far, 1))
+        depths.faults = Fault::not_finite;
+    else if (!(z_near >= T(0)) || !(z_near < z_far) || !(z_far <= detail::farthest_metres<T>))
+        depths.faults = Fault::empty_range;
+    if (depths.faults.any()) return depths;
+    depths.z_near = z_near;
+    depths.z_far = z_far;
+    return depths;
+}
+
+namespace detail {
+
+// The bits of a positive float grow with it, evenly in each octave: exponent and 5 bits of mantissa are its bin.
+template <class T>
+[[nodiscard]] inline int depth_key(T depth) noexcept {
+    float const value = static_cast<float>(depth);
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return static_cast<int>(bits >> 18);
+}
+
+// The sixteen octaves before z_far; what is nearer shares the first bin.
+template <class T>
+[[nodiscard]] inline int depth_bin(T z_far, T depth) noexcept {
+    int const bin = depth_key(depth) - depth_key(z_far) + depth_bins - 1;
+    return bin > 0 ? bin : 0;
+}
+
+}  // namespace detail
+
+// Takes in one sample: its eye depth in metres. NaN and infinity are counted and ignored, depths outside the range too.
+template <class T>
+inline void add(SampleDepths<T>& depths, T const& depth) noexcept {
+    if (!all_finite(&depth, 1)) {
+        ++depths.not_finite;
+        return;
+    }
+    if (!(depth >= depths.z_near && depth < depths.z_far)) {
+        ++depths.outside;
+        return;
+    }
+    ++depths.counted;
+    int const bin = detail::depth_bin(depths.z_far, depth);
+    depths.lo[bin] = depth < depths.lo[bin] ? depth : depths.lo[bin];
+    depths.hi[bin] = depth > depths.hi[bin] ? depth : depths.hi[bin];
+}
+
+// Takes in all samples of another part of the same view. Order and grouping of parts never matter, not by a bit.
+template <class T>
+inline void add(SampleDepths<T>& depths, SampleDepths<T> const& part) noexcept {
+    for (int i = 0; i < depth_bins; ++i) {
+        depths.lo[i] = part.lo[i] < depths.lo[i] ? part.lo[i] : depths.lo[i];
+        depths.hi[i] = part.hi[i] > depths.hi[i] ? part.hi[i] : depths.hi[i];
+    }
+    depths.counted += part.counted;
+    depths.outside += part.outside;
+    depths.not_finite += part.not_finite;
+    depths.faults |= part.faults;
+}
+
+enum class SampleSplits : std::uint8_t { even, adaptive };
+
+namespace detail {
+
+// Where the splits start that a given ratio makes: the first at the first sample. At most `most` are made, and the last
+// of them takes what is left.
+template <class T>
+struct Cover {
+    T start[max_splits] = {};
+    int count = 0;
+    bool complete = false;  // the last one ends within the ratio
+};
+
+// A nearer first sample could need ratios beyond 2^20; it joins the first split as it is.
+template <class T>
+[[nodiscard]] inline T first_depth(T lo, T hi) noexcept {
+    return lo > hi * T(0x1p-20) ? lo : hi * T(0x1p-20);
+}
+
+template <class T>
+[[nodiscard]] inline Cover<T> even_cover(T first, T last, T ratio, int most) noexcept {
+    Cover<T> cover;
+    T start = first;
+    for (; cover.count < most && (cover.count == 0 || start < last); start *= ratio) cover.start[cover.count++] = start;
+    cover.complete = start >= last;
+    return cover;
+}
+
+// Bins are not cut: a split holds a bin when its end lies within the ratio, and a bin of its own in any case.
+template <class T>
+[[nodiscard]] inline Cover<T> adaptive_cover(SampleDepths<T> const& depths, T first, T ratio, int most) noexcept {
+    Cover<T> cover;
+    T end = T(0);
+    for (int i = 0; i < depth_bins; ++i) {
+        if (!(depths.lo[i] <= depths.hi[i]) || (cover.count > 0 && depths.hi[i] <= end)) continue;
+        if (cover.count == most) return cover;
+        T const start = depths.lo[i] > first ? depths.lo[i] : first;
+        cover.start[cover.count++] = start;
+        end = start * ratio;
+    }
+    cover.complete = true;
+    return cover;
+}
+
+}  // namespace detail
+
+// Splits of [z_near, z_far] whose inner planes follow the samples: a split starts at the first sample that its
+// forerunner does not hold. Outer planes stay where the view has them, since the maps are fitted to samples and gain
+// nothing by it. As few as reach the last sample where each may be `least_ratio` deep (more than 1; 1.05 is sensible):
+// a wall that faces the eye gets one. No sample, no split, and no fault.
+//
+// The ratio of the deepest split to its start is the least that `count` splits can have: of `even` splits of the whole
+// interval, of `adaptive` ones to a bin, a 32nd of an octave. Samples nearer than 2^-20 of the last, for `even`, or
+// 2^-16 of z_far, for `adaptive`, belong to the first split whatever its ratio.
+template <class T>
+[[nodiscard]] inline Splits<T> sample_splits(SampleDepths<T> const& depths, int count, SampleSplits kind,
+                                             T least_ratio = T(1.05)) noexcept {
+    Splits<T> splits;
+    splits.faults = depths.faults;
+    int const most = count < 0 ? 0 : (count > max_splits ? max_splits : count);
+    if (most != count) splits.faults |= Fault::count_clamped;
+    T least = all_finite(&least_ratio, 1) ? least_ratio : T(1.05);
+    least = least < T(1.0001) ? T(1.0001) : (least > T(1 << 20) ? T(1 << 20) : least);
+    if (!all_finite(&least_ratio, 1) || least != least_ratio) splits.faults |= Fault::clamped_option;
+    if (depths.counted == 0 || most == 0) return splits;
+
+    T lo = depths.z_far, hi = depths.z_near;
+    for (int i = 0; i < depth_bins; ++i) {
+        lo = depths.lo[i] < lo ? depths.lo[i] : lo;
+        hi = depths.hi[i] > hi ? depths.hi[i] : hi;
+    }
+    T const first = detail::first_depth(lo, hi);
+    auto const cover = [&](T ratio) {
+        return kind == SampleSplits::even ? detail::even_cover(first, hi, ratio, most)
+                                          : detail::adaptive_cover(depths, first, ratio, most);
+    };
+    // The least number for which the cover is complete: completeness does not end as the ratio grows, for products are
+    // rounded in order.
+    T enough = least;
+    if (!cover(least).complete) {
+        T too_little = least;
+        enough = T(1 << 20);
+        for (T middle = T(0.5) * (too_little + enough); middle > too_little && middle < enough;
+             middle = T(0.5) * (too_little + enough))
+            (cover(middle).complete ? enough : too_little) = middle;
+    }
+    detail::Cover<T> const made = cover(enough);
+    splits.count = made.count;
+    for (int i = 1; i < made.count; ++i) splits.plane[i] = made.start[i];
+    detail::close_splits(splits, depths.z_near, depths.z_far);
+    return splits;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/sdsm.hpp ========
+//
+// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it could
+// see. Indoors, over a plain, down a street they give several times the texels of the best fit to the view volume. Use
+// them when the eye's depth is at hand before the maps are drawn: from a depth prepass, or from the frame before (then
+// widen the boxes by what may have moved).
+//
+//   eye depths ── sample_splits ── boxes of samples ── fit_samples ── one matrix a split
+//   (pass 1: SampleDepths)          (pass 2: SampleBounds)
+//
+//   SampleDepths<float> depths = no_depths(view.z_near, view.z_far);
+//   for (pixel) add(depths, depth);
+//   SampleBounds<float> bounds = no_bounds(sample_splits(depths, 4, SampleSplits::adaptive));
+//   SampleRays<float> const rays = sample_rays(view, light, width, height);
+//   for (pixel) add(bounds, rays, x, y, depth);
+//   Cascades<float> const cascades = fit_samples(rays, bounds, casters, options);
+//
+// glsl/sdsm.glsl is the same for compute shaders: the matrices stay in a buffer and are used from there.
+//
+// Under motion the boxes change with every pixel that comes into sight, and shadow edges crawl by up to a texel, which
+// is a pixel or less here. With `still` the texel is one of eight sizes an octave and the map lies on a grid of whole
+// texels, so that nothing crawls as long as no size changes.
+//
+// Source: Lauritzen, Salvi, Lefohn, "Sample distribution shadow maps", I3D 2011. Departures: each map's own box in
+// light space, not a crop of one common projection; the near end is where the light enters the casters' box above the
+// map's sides; still maps.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct SampleFitOptions {
+    int map_size = 2048;       // texels along one side of each
+    T margin_texels = T(2);    // free on every side: half the width of the PCF kernel, and one
+    bool still = false;        // true: texels of quantised size on a grid
+    bool pancake = false;      // true: near plane at the first sample, and the renderer turns depth clamp ON
+    ClipSpace clip = gl_clip;  // the convention of the pass that draws the maps
+};
+
+// The next number up whose mantissa has four bits: eight an octave. For x > 0.
+template <class T>
+[[nodiscard]] inline T eighth_of_octave_up(T x) noexcept {
+    int exponent = 0;
+    T const mantissa = std::frexp(x, &exponent);
+    return std::ldexp(std::ceil(mantissa * T(16)), exponent - 4);
+}
+
+// Metres along the light, from the world origin, at which the rays between the sides lo and hi (light space) enter the
+// box: nothing of it lies before. Never later than the truth, and earlier by what the box's faces rise across the
+// sides. Above the far side of the box for rays that pass it by.
+template <class T>
+[[nodiscard]] inline T light_entry(LightBasis<T> const& basis, Vec2<T> const& lo, Vec2<T> const& hi,
+                                   Aabb<T> const& box) noexcept {
+    T entry = -detail::farthest_metres<T>;
+    for (int k = 0; k < 3; ++k) {
+        T const along = basis.depth[k];
+        // Faces that the light runs along stop nothing.
+        if (!(std::abs(along) > T(1e-4))) continue;
+        // On a ray world coordinate k is across + along * depth.
+        T const x0 = basis.x[k] * lo.x, x1 = basis.x[k] * hi.x, y0 = basis.y[k] * lo.y, y1 = basis.y[k] * hi.y;
+        T const face = along > T(0) ? box.lo[k] : box.hi[k];
+        T const across =
+            along > T(0) ? (x0 > x1 ? x0 : x1) + (y0 > y1 ? y0 : y1) : (x0 < x1 ? x0 : x1) + (y0 < y1 ? y0 : y1);
+        T const rounding = T(4) * std::numeric_limits<T>::epsilon() *
+                           (std::abs(face) + std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1));
+        T const enters = ((face - across) - (along > T(0) ? rounding : -rounding)) * (T(1) / along);
+        entry = enters > entry ? enters : entry;
+    }
+    return entry;
+}
+
+namespace detail {
+
+// One axis of a map: NDC = scale * (light-space coordinate) + offset.
+template <class T>
+struct MapSide {
+    T lo = T(0);  // metres
+    T hi = T(0);
+    T scale = T(0);
+    T offset = T(0);
+    T texel_metres = T(0);
+};
+
+template <class T>
+[[nodiscard]] inline MapSide<T> tight_side(T lo, T hi, int map_size) noexcept {
+    T const extent = hi - lo;
+    return {lo, hi, T(2) / extent, -(hi + lo) / extent, extent / T(map_size)};
+}
+
+// The window of map_size quantised texels, a whole number of them from the world origin, that holds [lo, hi] and the
+// margin wherever rounding puts it: half a texel to either side. Its place comes from the integer, not from metres.
+template <class T>
+[[nodiscard]] inline MapSide<T> still_side(T lo, T hi, int map_size, T margin_texels, Faults& faults) noexcept {
+    constexpr T eps = std::numeric_limits<T>::epsilon();
+    T const size = T(map_size), spare = T(1) / (usable_texels(map_size, margin_texels) - T(1)) * (T(1) + T(4) * eps);
+    T const texel = eighth_of_octave_up((hi - lo) * spare);
+    T const index = std::floor(T(0.5) * (lo + hi) / texel - size * T(0.5) + T(0.5));
+    // As for texel_grid: a coordinate's roundings stay below a 64th of a texel.
+    if (!((std::abs(index) + size) * eps <= T(1) / T(256))) faults |= Fault::precision_lost;
+    return {index * texel, (index + size) * texel, T(2) / (size * texel), -(T(2) * index + size) / size, texel};
+}
+
+template <class T>
+inline void fit_samples_of(Cascade<T>& cascade, SampleRays<T> const& rays, Aabb<T> const& box, Aabb<T> const& casters,
+                           SampleFitOptions<T> const& options) noexcept {
+    Aabb<T> const body{box.lo + rays.eye, box.hi + rays.eye};
+    if (!(largest_of(body) <= farthest_metres<T>)) {
+        cascade.map.faults |= Fault::precision_lost;
+        return;
+    }
+    T const margin_texels = options.still ? T(0) : options.margin_texels;
+    LightBox<T> const sides = box_around(rays.basis, body, options.map_size, margin_texels);
+    auto const side = [&](int axis) {
+        return options.still ? still_side(sides.lo[axis], sides.hi[axis], options.map_size, options.margin_texels,
+                                          cascade.map.faults)
+                             : tight_side(sides.lo[axis], sides.hi[axis], options.map_size);
+    };
+    MapSide<T> const x = side(0), y = side(1);
+    T const entry = light_entry(rays.basis, Vec2<T>(x.lo, y.lo), Vec2<T>(x.hi, y.hi), casters);
+    if (!(entry <= sides.depth_hi)) return;
+    // A depth buffer tells nothing apart in more, as in depth_range. The way from the eye counts: what is seen may be a
+    // single point.
+    T const size = (x.hi - x.lo) + (y.hi - y.lo) + (sides.depth_hi - sides.depth_lo) + largest_of(box);
+    T const deepest = sides.depth_lo - T(65536) * size;
+    T const reach = options.pancake ? sides.depth_lo : (entry > deepest ? entry : deepest);
+    T const depth_lo = reach < sides.depth_lo ? reach : sides.depth_lo;
+    T const depth_scale = T(1) / (sides.depth_hi - depth_lo);
+    Mat4<T> const canonical =
+        from_rows(Vec4<T>(rays.basis.x * x.scale, x.offset), Vec4<T>(rays.basis.y * y.scale, y.offset),
+                  Vec4<T>(rays.basis.depth * depth_scale, -depth_lo * depth_scale), Vec4<T>(T(0), T(0), T(0), T(1)));
+    if (!all_finite(canonical)) {
+        cascade.map.faults |= Fault::precision_lost;
+        return;
+    }
+    cascade.map.clip_from_world = clip_from_canonical<T>(options.clip) * canonical;
+    cascade.map.visible = true;
+    cascade.texel_metres = x.texel_metres > y.texel_metres ? x.texel_metres : y.texel_metres;
+    cascade.depth_metres = sides.depth_hi - depth_lo;
+}
+
+}  // namespace detail
+
+// Every sample of a split is inside its map with margin_texels to spare on each side, and every caster of the box
+// between it and the sun is in that map, whatever the clip convention. A split without samples, and samples above all
+// casters, give a map that is not visible, and no fault. With `still` a world point keeps its place within a texel from
+// one fit to the next, whatever the eye and the samples did, when both fits have texels of the same size.
+//
+// `casters` is a world box; empty: no map is visible. Suns only: a spot is clamped_option.
+template <class T>
+[[nodiscard]] inline Cascades<T> fit_samples(SampleRays<T> const& rays, SampleBounds<T> const& bounds,
+                                             Aabb<T> const& casters, SampleFitOptions<T> const& options) noexcept {
+    Cascades<T> cascades;
+    cascades.faults = rays.faults | bounds.faults | faults_of_margin(options.map_size, options.margin_texels);
+    if (!all_finite(casters)) cascades.faults |= Fault::not_finite;
+    if (!rays.usable || cascades.faults.has(Fault::not_finite) || cascades.faults.has(Fault::map_too_small))
+        return cascades;
+    cascades.count = bounds.count;
+    Vec3<T> const farthest(detail::farthest_metres<T>);
+    Aabb<T> const reached = intersect(casters, Aabb<T>{-farthest, farthest});
+    for (int i = 0; i < bounds.count; ++i) {
+        Cascade<T>& cascade = cascades.at[i];
+        cascade.range = bounds.range[i];
+        cascade.map.clip = options.clip;
+        if (!is_empty(bounds.box[i]) && !is_empty(reached))
+            detail::fit_samples_of(cascade, rays, bounds.box[i], reached, options);
         cascades.faults |= cascade.map.faults;
     }
     return cascades;
