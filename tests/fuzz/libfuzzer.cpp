@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. Allocations are
-// counted by the address sanitizer's own hook: it wants operator new for itself.
+// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. Allocations
+// are counted by the address sanitizer's own hook: it wants operator new for itself.
 #include "tests/fuzz/case.hpp"
 
 #include <sanitizer/allocator_interface.h>

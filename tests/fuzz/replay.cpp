@@ -5,8 +5,8 @@
 //
 //   replay [--finite] [--cases N] [--seed S] [target or file ...]
 //
-// --finite leaves out NaN and infinity, for builds with -ffast-math. A file belongs to the target that its folder is named
-// after.
+// --finite leaves out NaN and infinity, for builds with -ffast-math. A file belongs to the target that its folder is
+// named after.
 #include "tests/fuzz/case.hpp"
 #include "tests/support/counted_new.hpp"
 
