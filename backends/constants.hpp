@@ -24,15 +24,13 @@ struct alignas(256) FrameBlock {
 };
 
 struct Constants {
-    std::array<MapBlock, max_maps> map{};   // one map's matrix each
-    std::array<MapsBlock, 2> maps{};        // all maps' matrices; those of the maps from `second` on
+    std::array<MapBlock, max_maps> map{};    // one map each
+    std::array<MapsBlock, max_maps> maps{};  // as many as are drawn at once, then the next as many, and so on
     std::array<FrameBlock, max_maps + 2> frame{};
 
-    void set(std::span<DepthLayer const> layers, std::size_t second = max_maps) {
-        for (std::size_t i = 0; i < layers.size(); ++i) {
-            map[i].clip_from_world = maps[0].clip_from_world[i] = layers[i].clip_from_world;
-            if (i >= second) maps[1].clip_from_world[i - second] = layers[i].clip_from_world;
-        }
+    void set(std::span<DepthLayer const> layers, std::size_t at_once = max_maps) {
+        for (std::size_t i = 0; i < layers.size(); ++i)
+            map[i].clip_from_world = maps[i / at_once].clip_from_world[i % at_once] = layers[i].clip_from_world;
     }
     void set(std::span<ViewDraw const> views) {
         for (std::size_t i = 0; i < views.size(); ++i) frame[i].frame = views[i].frame;

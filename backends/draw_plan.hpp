@@ -123,8 +123,8 @@ inline void count(DrawWork& work, std::span<Draw const> draws) {
 // Clones and views are made of a triangle after it was handed over; an instance is a triangle of its own.
 [[nodiscard]] inline DrawWork work_of(DrawWay way, std::span<DrawGroup const> groups) {
     DrawWork work;
+    work.passes = groups.size() + (way == DrawWay::multiview ? 1u : 0u);  // which first clears all maps
     for (DrawGroup const& group : groups) {
-        ++work.passes;
         count(work, group.draws);
         for (Draw const& draw : group.draws) {
             MapSet const maps = way == DrawWay::geometry_clones ? draw.first_instance : group.maps;

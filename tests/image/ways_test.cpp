@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Contexts, AnyWay, every_context, context_name);
 // Objects of three triangles all over every map, each listed in a set of maps of its own: none, one, a range, or one
 // with holes. An object drawn where it is not listed would be seen.
 struct Listed {
-    static constexpr int map_size = 193;
+    static constexpr int map_size = 256;
 
     Scene scene;
     std::array<std::vector<std::uint32_t>, max_maps> objects;
@@ -86,7 +86,7 @@ TEST_P(AnyWay, EveryWayDrawsTheSameMaps) {
             for (auto const& map : expected)
                 EXPECT_GT(std::ranges::count_if(map, [](float depth) { return depth < 1.0f; }), 10000);
             for (DrawWay const way : backend->ways())
-                EXPECT_EQ(draw_all(*backend, listed.pass(way, depth_clamp)), expected)
+                EXPECT_TRUE(draw_all(*backend, listed.pass(way, depth_clamp)) == expected)
                     << name_of(way) << ", " << map_count << " maps, " << (depth_clamp ? "clamped" : "clipped");
         }
 }
