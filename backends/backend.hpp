@@ -35,9 +35,9 @@ struct DepthLayer {
     std::span<std::uint32_t const> objects;  // indices into Scene::objects: the casters, in any order
 };
 
-// How several maps are drawn. Every way gives the same maps, texel by texel, and draws an object into those alone that it
-// is listed in; they differ in what they cost. Where a driver rounds otherwise behind a geometry shader (llvmpipe does,
-// in the viewport), clones agree but for that rounding, and wholly if map_size is a power of two.
+// How several maps are drawn. Every way gives the same maps, texel by texel, and draws an object into those alone that
+// list it; they differ in what they cost. Where a driver rounds otherwise behind a geometry shader (llvmpipe does, in
+// the viewport), clones agree but for that rounding, and wholly if map_size is a power of two.
 enum class DrawWay {
     pass_per_map,     // one pass a map; every driver has it
     geometry_clones,  // one pass; a geometry shader clones each triangle into its maps

@@ -18,7 +18,7 @@ namespace shadowmath::backend {
 
 using MapSet = std::uint32_t;  // bit i: map i
 
-// The number that an instance has, its draw's first one included: what an instanced attribute reads, in both APIs alike.
+// What an instanced attribute reads, in both APIs alike: an instance's number, counted from its draw's first_instance.
 inline constexpr auto instance_numbers = [] {
     std::array<std::uint32_t, 1u << max_maps> numbers{};
     for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;

@@ -57,8 +57,8 @@ struct SplitPlan {
     std::vector<ViewDraw> views;  // one for each map, to be drawn while it is there; two more for the last
 };
 
-// The slices lie end to end and fill [0, 1]: one for each map, in order, and one for what lies beyond the last, which is
-// lit. A slice with nothing in it has no draws. Last come the objects that receive nothing.
+// The slices lie end to end and fill [0, 1]: one for each map, in order, and one for what lies beyond the last, which
+// is lit. A slice with nothing in it has no draws. Last come the objects that receive nothing.
 [[nodiscard]] inline SplitPlan plan_split_by_split(DepthPass maps, ScenePass const& pass,
                                                    std::span<Object const> objects) {
     maps.way = DrawWay::pass_per_map;

@@ -24,8 +24,8 @@ struct Resources {
         : vertices(make_buffer(gl)), indices(make_buffer(gl)), numbers(make_buffer(gl)), constants(make_buffer(gl)),
           draws(make_buffer(gl)), geometry(make_vertex_array(gl)),
           depth(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_vert}})),
-          depth_clones(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_clones_vert},
-                                         {GL_GEOMETRY_SHADER, shaders::depth_clones_geom}})),
+          depth_clones(make_program(
+              gl, {{GL_VERTEX_SHADER, shaders::depth_clones_vert}, {GL_GEOMETRY_SHADER, shaders::depth_clones_geom}})),
           receive(make_program(
               gl, {{GL_VERTEX_SHADER, shaders::receive_vert}, {GL_FRAGMENT_SHADER, shaders::receive_frag}})) {
         if (gl.has_extension("GL_ARB_shader_viewport_layer_array"))

@@ -44,8 +44,7 @@ RenderPass make_render_pass(VkDevice device, std::span<VkFormat const> colours, 
     auto const attach = [&](VkFormat format, VkImageLayout layout) {
         references.push_back({static_cast<std::uint32_t>(references.size()), layout});
         attachments.push_back({0, format, VK_SAMPLE_COUNT_1_BIT, begin, VK_ATTACHMENT_STORE_OP_STORE,
-                               VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                               VK_ATTACHMENT_STORE_OP_DONT_CARE, layout, layout});
+                               VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_DONT_CARE, layout, layout});
     };
     for (VkFormat const format : colours) attach(format, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     attach(depth_format, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);

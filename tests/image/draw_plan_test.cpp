@@ -74,10 +74,10 @@ TEST(DrawPlan, MultiviewDrawsEachSetOfMapsOnce) {
     auto const plan = [&](std::uint32_t at_once) {
         return said(plan_draws(world.pass(DrawWay::multiview), world.scene.objects, at_once));
     };
-    EXPECT_EQ(plan(8), (std::vector<Said>{{0b0011, {{0, 9, 0, 1}}}, {0b1101, {{18, 12, 0, 1}}}, {0b1000, {{30, 15, 0, 1}}}}));
-    EXPECT_EQ(plan(3), (std::vector<Said>{{0b0011, {{0, 9, 0, 1}}},
-                                          {0b0101, {{18, 12, 0, 1}}},
-                                          {0b1000, {{18, 27, 0, 1}}}}));
+    EXPECT_EQ(plan(8),
+              (std::vector<Said>{{0b0011, {{0, 9, 0, 1}}}, {0b1101, {{18, 12, 0, 1}}}, {0b1000, {{30, 15, 0, 1}}}}));
+    EXPECT_EQ(plan(3),
+              (std::vector<Said>{{0b0011, {{0, 9, 0, 1}}}, {0b0101, {{18, 12, 0, 1}}}, {0b1000, {{18, 27, 0, 1}}}}));
     EXPECT_EQ(plan(1), said(plan_draws(world.pass(DrawWay::pass_per_map), world.scene.objects)));
 }
 

@@ -23,7 +23,8 @@ struct ListedObjects {
     std::uint64_t triangles_in_maps = 0;      // once for each map that they are listed in
     std::uint64_t triangles_in_some_map = 0;  // once, if listed at all
 
-    ListedObjects(std::uint32_t seed, std::size_t map_count) : scene(random_triangles(seed, 300)), map_count_(map_count) {
+    ListedObjects(std::uint32_t seed, std::size_t map_count)
+        : scene(random_triangles(seed, 300)), map_count_(map_count) {
         std::mt19937 random(seed);
         scene.objects.clear();
         for (std::uint32_t object = 0; object < 100; ++object) {
@@ -64,8 +65,7 @@ private:
 [[nodiscard]] inline std::vector<std::vector<float>> draw_maps(Backend& backend, DepthPass const& pass) {
     backend.draw_depth(pass);
     std::vector<std::vector<float>> maps;
-    for (int map = 0; map < static_cast<int>(pass.layers.size()); ++map)
-        maps.push_back(backend.read_depth(map).pixels);
+    for (int map = 0; map < static_cast<int>(pass.layers.size()); ++map) maps.push_back(backend.read_depth(map).pixels);
     return maps;
 }
 

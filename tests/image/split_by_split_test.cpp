@@ -82,8 +82,8 @@ TEST_P(SplitBySplit, DrawsTheSamePictureButForEdgePixels) {
             Unlike const n = unlike(whole, backend->read_frame());
             std::cout << name << ", " << named.views[i].name << ": of " << n.pixels << " pixels " << n.colour
                       << " look unlike, " << n.map << " lie in another split, " << n.sky << " are sky in one only\n";
-            // A triangle that a split's end cuts is two triangles: what is interpolated along them rounds otherwise, and
-            // decides otherwise where a shadow or an outline begins.
+            // A triangle that a split's end cuts is two triangles: what is interpolated along them rounds otherwise,
+            // and decides otherwise where a shadow or an outline begins.
             EXPECT_LE(n.colour, n.pixels / 1000);
             EXPECT_EQ(n.colour_off_edges, 0);
             EXPECT_LE(n.map, n.pixels / 1000);

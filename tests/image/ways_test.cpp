@@ -102,10 +102,10 @@ TEST_P(AnyWay, DrawsAnObjectIntoTheMapsThatItIsListedInAlone) {
         backend->upload(world.scene);
         auto const drawn = draw_maps(*backend, world.pass(way, 64));
         for (std::size_t map = 0; map < drawn.size(); ++map)
-            EXPECT_EQ(texels_unlike(drawn[map], draw_map(*backend, world.objects_of_map(map), 64, true,
-                                                         all_objects(world.objects_of_map(map)),
-                                                         world.layers[map].clip_from_world)
-                                                    .pixels),
+            EXPECT_EQ(texels_unlike(drawn[map],
+                                    draw_map(*backend, world.objects_of_map(map), 64, true,
+                                             all_objects(world.objects_of_map(map)), world.layers[map].clip_from_world)
+                                        .pixels),
                       0)
                 << name_of(way) << ", map " << map;
     }
