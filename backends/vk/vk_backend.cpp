@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
@@ -352,13 +351,11 @@ private:
 
     template <class Record>
     [[nodiscard]] DrawWork timed(DrawWork work, Record const& record) const {
-        auto const begun = std::chrono::steady_clock::now();
-        commands_.submit([&](VkCommandBuffer commands) {
+        work.milliseconds = commands_.timed([&](VkCommandBuffer commands) {
             statistics_.begin(commands);
             record(commands);
             statistics_.end(commands);
         });
-        work.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
         work.driver = statistics_.read(device_.get());
         return work;
     }
