@@ -72,22 +72,6 @@ struct BoxArrays {
 
 namespace detail {
 
-// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
-// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
-[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x80000000u - 0x5d800000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x8000000000000000u - 0x43b0000000000000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
-    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
-}
-
 template <class T>
 [[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
     return all_finite(v) && largest_of(v) < T(0x1p60);

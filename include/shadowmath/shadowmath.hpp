@@ -19,6 +19,7 @@
 
 // Where along the view.
 #include <shadowmath/slice.hpp>
+#include <shadowmath/slices.hpp>
 #include <shadowmath/splits.hpp>
 
 // How to look from the light.

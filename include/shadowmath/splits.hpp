@@ -73,6 +73,22 @@ inline void close_splits(Splits<T>& splits, T z_near, T z_far) noexcept {
     splits.count = kept;
 }
 
+// power[i] = ratio^(i / count), 0 < i < count. Where count is a power of two, from square roots alone: a pow costs more
+// than all else in a fit. Twice as many hold the same values at every other place, to the bit.
+template <class T>
+inline void powers_of_ratio(T ratio, int count, T* power) noexcept {
+    if ((count & (count - 1)) != 0) {
+        for (int i = 1; i < count; ++i) power[i] = std::pow(ratio, T(i) / T(count));
+        return;
+    }
+    power[0] = T(1);
+    T root = ratio;
+    for (int step = count / 2; step > 0; step /= 2) {
+        root = std::sqrt(root);
+        for (int i = step; i < count; i += 2 * step) power[i] = power[i - step] * root;
+    }
+}
+
 template <class T>
 [[nodiscard]] inline T clamped_lambda(T const& lambda, Faults& faults) noexcept {
     if (all_finite(&lambda, 1) && lambda >= T(0) && lambda <= T(1)) return lambda;
@@ -95,11 +111,10 @@ template <class T>
     if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
     T const ratio = has_ratio ? z_far / z_near : T(1 << 20);
     T const log_near = has_ratio ? z_near : z_far / ratio;
+    if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
     for (int i = 1; i < splits.count; ++i) {
-        T const fraction = T(i) / T(splits.count);
-        T const uniform = z_near + (z_far - z_near) * fraction;
-        T const logarithmic = weight > T(0) ? log_near * std::pow(ratio, fraction) : T(0);
-        splits.plane[i] = weight * logarithmic + (T(1) - weight) * uniform;
+        T const uniform = z_near + (z_far - z_near) * (T(i) / T(splits.count));
+        splits.plane[i] = weight * (log_near * splits.plane[i]) + (T(1) - weight) * uniform;
     }
     detail::close_splits(splits, z_near, z_far);
     return splits;
