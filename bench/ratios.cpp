@@ -89,8 +89,8 @@ int main(int argc, char** argv) {
     json rows = json::array();
     for (bool const native : {true, false}) {
         std::string const flags = native ? "-O3 -march=native" : "-O2";
-        std::printf("\n%s\n%-28s %-10s %14s %14s %8s %8s\n", flags.c_str(), "", "against", "ours, ns", "its, ns", "ratio",
-                    "goal");
+        std::printf("\n%s\n%-28s %-10s %14s %14s %8s %8s\n", flags.c_str(), "", "against", "ours, ns", "its, ns",
+                    "ratio", "goal");
         for (auto const& [name, variants] : medians_of(argv[native ? 1 : 2])) {
             auto const ours = variants.find("ours");
             if (ours == variants.end()) continue;

@@ -56,15 +56,13 @@ void boxes(benchmark::State& state) {
 }
 
 void boxes_bound(benchmark::State& state) {
-    with_views(state, [](ViewVolume<float> const& view, glm::mat4* maps) {
-        bounds::slice_boxes(view, bench::sun, maps);
-    });
+    with_views(state,
+               [](ViewVolume<float> const& view, glm::mat4* maps) { bounds::slice_boxes(view, bench::sun, maps); });
 }
 
 void boxes_textbook(benchmark::State& state) {
-    with_cameras(state, [](textbook::Camera const& camera) {
-        return textbook::tight_cascades(camera, bench::sun, 0.5f);
-    });
+    with_cameras(state,
+                 [](textbook::Camera const& camera) { return textbook::tight_cascades(camera, bench::sun, 0.5f); });
 }
 
 }  // namespace

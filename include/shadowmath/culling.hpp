@@ -59,17 +59,6 @@ struct CasterMaps {
     int map_count = 0;  // those that were never visible count too, and keep their bit clear
 };
 
-// Boxes as structure of arrays: box i is [lo_x[i], hi_x[i]] x ...
-template <class T>
-struct BoxArrays {
-    T const* lo_x = nullptr;
-    T const* lo_y = nullptr;
-    T const* lo_z = nullptr;
-    T const* hi_x = nullptr;
-    T const* hi_y = nullptr;
-    T const* hi_z = nullptr;
-};
-
 namespace detail {
 
 template <class T>
@@ -300,20 +289,14 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
                        boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
         "caster_masks needs six arrays of boxes and one of masks");
-    auto const from = [&boxes](int i) {
-        return BoxArrays<T>{boxes.lo_x + i, boxes.lo_y + i, boxes.lo_z + i,
-                            boxes.hi_x + i, boxes.hi_y + i, boxes.hi_z + i};
-    };
     constexpr int n = detail::boxes_at_once;
     for (int begin = 0; begin < count; begin += n) {
-        BoxArrays<T> const block = from(begin);
+        BoxArrays<T> const block = boxes_from(boxes, begin);
         int const length = count - begin < n ? count - begin : n;
         bool in_reach = false;
         if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
         if (in_reach) continue;
-        for (int i = 0; i < length; ++i)
-            masks[begin + i] = caster_mask(maps, Aabb<T>{Vec3<T>(block.lo_x[i], block.lo_y[i], block.lo_z[i]),
-                                                         Vec3<T>(block.hi_x[i], block.hi_y[i], block.hi_z[i])});
+        for (int i = 0; i < length; ++i) masks[begin + i] = caster_mask(maps, box_at(block, i));
     }
 }
 

@@ -36,6 +36,7 @@
 
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
+#include <shadowmath/points.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 

@@ -63,8 +63,12 @@ template <class T>
 template <class T>
 inline void close_splits(Splits<T>& splits, T z_near, T z_far) noexcept {
     if (splits.count == 0) return;
-    int kept = 0;
     splits.plane[0] = z_near;
+    splits.plane[splits.count] = z_far;
+    bool ordered = true;
+    for (int i = 0; i < splits.count; ++i) ordered = ordered & (splits.plane[i] < splits.plane[i + 1]);
+    if (ordered) return;
+    int kept = 0;
     for (int i = 1; i < splits.count; ++i)
         if (splits.plane[i] > splits.plane[kept] && splits.plane[i] < z_far) splits.plane[++kept] = splits.plane[i];
     splits.plane[++kept] = z_far;
@@ -111,10 +115,18 @@ template <class T>
     if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
     T const ratio = has_ratio ? z_far / z_near : T(1 << 20);
     T const log_near = has_ratio ? z_near : z_far / ratio;
-    if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
-    for (int i = 1; i < splits.count; ++i) {
-        T const uniform = z_near + (z_far - z_near) * (T(i) / T(splits.count));
-        splits.plane[i] = weight * (log_near * splits.plane[i]) + (T(1) - weight) * uniform;
+    auto const blended = [&](T fraction, T power) {
+        return weight * (log_near * power) + (T(1) - weight) * (z_near + (z_far - z_near) * fraction);
+    };
+    if (splits.count == 4 && weight > T(0)) {
+        // What most renderers ask for, without a loop; the same bits.
+        T const half = std::sqrt(ratio), quarter = std::sqrt(half);
+        splits.plane[1] = blended(T(0.25), quarter);
+        splits.plane[2] = blended(T(0.5), half);
+        splits.plane[3] = blended(T(0.75), half * quarter);
+    } else {
+        if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
+        for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
     }
     detail::close_splits(splits, z_near, z_far);
     return splits;
