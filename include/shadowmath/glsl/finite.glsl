@@ -40,7 +40,7 @@ vec3 sm_cross(vec3 a, vec3 b) {
 
 struct sm_Normalized {
     vec3 direction;  // unit, or zero when ok is false
-    float length;    // of the input; may overflow to infinity
+    float size;      // length of the input; may overflow to infinity
     bool ok;
 };
 
