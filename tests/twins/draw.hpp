@@ -28,7 +28,9 @@ public:
 
     [[nodiscard]] std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
     [[nodiscard]] bool one_in(std::uint32_t count) { return below(count) == 0; }
-    [[nodiscard]] int whole(int lo, int hi) { return lo + static_cast<int>(below(static_cast<std::uint32_t>(hi - lo + 1))); }
+    [[nodiscard]] int whole(int lo, int hi) {
+        return lo + static_cast<int>(below(static_cast<std::uint32_t>(hi - lo + 1)));
+    }
 
     // These four are always ordinary.
     [[nodiscard]] float uniform(float lo, float hi) {
@@ -112,10 +114,9 @@ public:
             float const half_angle = uniform(0.1f, 1.3f), z_near = log_uniform(0.1f, 2.0f);
             float const z_far = z_near * log_uniform(4.0f, 200.0f);
             drawn.light = spot(position, axis, half_angle, z_far);
-            canonical = clip_from_world(
-                perspective_view(pose_looking(position, axis, Vec3<float>(0.0f, 1.0f, 0.0f)), half_angle * 2.0f, 1.0f,
-                                 z_near, z_far),
-                gl_zero_to_one_clip);
+            canonical = clip_from_world(perspective_view(pose_looking(position, axis, Vec3<float>(0.0f, 1.0f, 0.0f)),
+                                                         half_angle * 2.0f, 1.0f, z_near, z_far),
+                                        gl_zero_to_one_clip);
         }
         drawn.point = spoilt(point_at(canonical));
         drawn.map.clip = clip_space();
@@ -131,17 +132,27 @@ public:
         Vec3<float> const at = finite ? seen_point : Vec3<float>(0.0f);
         Vec3<float> const forward = unit();
         Vec3<float> const eye = at - (forward + within(0.5f)) * log_uniform(0.1f, 100.0f);
-        auto const view = perspective_view(pose_looking(eye, forward, unit()), uniform(0.3f, 2.0f),
-                                           uniform(0.5f, 2.0f), 0.01f, 1000.0f);
+        auto const view = perspective_view(pose_looking(eye, forward, unit()), uniform(0.3f, 2.0f), uniform(0.5f, 2.0f),
+                                           0.01f, 1000.0f);
         return spoilt(clip_from_world(view, gl_zero_to_one_clip));
     }
 
     // Zeros, denormals, the ends of the range, neighbours of one, infinities, NaN; any bits; any magnitude.
     [[nodiscard]] float nasty() {
         using Limits = std::numeric_limits<float>;
-        constexpr float special[] = {0.0f,          Limits::denorm_min(), 1e-40f,       Limits::min(),      Limits::epsilon(),
-                                     0.99999994f,   1.0f,                 1.00000012f,  2.0f,               1e30f,
-                                     Limits::max(), Limits::infinity(),   Limits::quiet_NaN()};
+        constexpr float special[] = {0.0f,
+                                     Limits::denorm_min(),
+                                     1e-40f,
+                                     Limits::min(),
+                                     Limits::epsilon(),
+                                     0.99999994f,
+                                     1.0f,
+                                     1.00000012f,
+                                     2.0f,
+                                     1e30f,
+                                     Limits::max(),
+                                     Limits::infinity(),
+                                     Limits::quiet_NaN()};
         float const sign = one_in(2) ? -1.0f : 1.0f;
         std::uint32_t const kind = below(4);
         if (kind == 0) return std::bit_cast<float>(static_cast<std::uint32_t>(engine_()));

@@ -93,8 +93,8 @@ void detail::compare(ComputeRunner& runner, std::string const& driver, Twin cons
             row.allowed = std::max(row.allowed, allowed);
             row.seen = std::max(row.seen, apart);
             if (apart <= std::max(allowed, std::int64_t{0}) || ++disagreements > 3) continue;
-            ADD_FAILURE() << twin.name << " on " << driver << ", case " << i << ", word " << k - i * out << ": " << apart
-                          << " ulps apart, " << std::max(allowed, std::int64_t{0}) << " stated\n  given"
+            ADD_FAILURE() << twin.name << " on " << driver << ", case " << i << ", word " << k - i * out << ": "
+                          << apart << " ulps apart, " << std::max(allowed, std::int64_t{0}) << " stated\n  given"
                           << shown(std::span(given.words()).subspan(i * in, in)) << "\n  C++  " << shown(answer)
                           << "\n  GLSL " << shown(std::span(found).subspan(i * out, out));
         }

@@ -40,8 +40,7 @@ public:
         return *this;
     }
     template <class Whole>
-        requires std::is_integral_v<Whole>
-    Words& operator()(Whole v) {
+    requires std::is_integral_v<Whole> Words& operator()(Whole v) {
         words_.push_back(static_cast<std::uint32_t>(v));
         allowed_.push_back(-1);
         return *this;

@@ -3,8 +3,8 @@
 // Where to cut the view along its depth: the GLSL twin of the practical splits of splits.hpp and of slice.hpp, for
 // shaders that find the range of depths themselves (sample-distribution shadow maps).
 //
-// Planes lie within 32 ulp of the C++: powers differ, ends and uniform planes are equal bit for bit. Where z_near and
-// z_far are so close that planes fall together, the two may keep different ones.
+// Planes lie within 96 ulp of the C++ (22 seen): powers differ, ends and uniform planes are equal bit for bit. Where
+// z_near and z_far are so close that planes fall together, the two may keep different ones.
 #ifndef SM_SPLITS_GLSL
 #define SM_SPLITS_GLSL
 
