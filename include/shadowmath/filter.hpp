@@ -30,8 +30,8 @@ struct FilterOptions {
     bool tap_plane = true;  // compare each tap with the receiver plane's depth there, not with the point's
 };
 
-// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis, when
-// the point lies the `fraction` [0, 1) into its texel.
+// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis,
+// when the point lies the `fraction` [0, 1) into its texel.
 template <class T>
 [[nodiscard]] constexpr T covered_texels(int tap, int radius, T fraction) noexcept {
     if (radius == 0) return T(1);
@@ -52,8 +52,8 @@ struct Receiver {
     DepthSlope<T> slope;  // on its plane
 };
 
-// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1 and
-// 0 are exact where all taps agree.
+// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1
+// and 0 are exact where all taps agree.
 // `stored_depth(x, y)` is asked for texels of the map only; those outside hold nothing. Depths are compared within
 // [0, 1], as they are stored: a receiver beyond the far end is lit by the cleared map. What is not finite is lit.
 template <class T, class StoredDepth>

@@ -28,8 +28,8 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Drivers, SplitsTwins, twin_drivers, driver_name);
 
-// With u half an epsilon: std::pow takes i / count rounded, which costs u * ln(ratio), 45 u where the ratio is 2^64; the
-// shader's root is good to 2 u and each of up to 15 products adds that and one more.
+// With u half an epsilon: std::pow takes i / count rounded, which costs u * ln(ratio), 45 u where the ratio is 2^64;
+// the shader's root is good to 2 u and each of up to 15 products adds that and one more.
 TEST_P(SplitsTwins, PracticalSplits) {
     prove_splits("practical_splits", false, 96);
 }

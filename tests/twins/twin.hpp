@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Proves a function of the GLSL library equal to the C++: both answer the same thousands of generated cases, and each
-// number must agree within the ulps that the library states. A disagreement prints the input, both answers and the ulps;
-// the largest seen are printed as a table when the program ends.
+// number must agree within the ulps that the library states. A disagreement prints the input, both answers and the
+// ulps; the largest seen are printed as a table when the program ends.
 //
 // What counts as equal whatever the ulps: NaN and NaN, of any payload; 0 and -0; two magnitudes below the least normal
 // number, for a driver may flush them.

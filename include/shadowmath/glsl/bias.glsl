@@ -27,8 +27,9 @@ vec2 sm_slope_at(mat4 texture_from_world, sm_Projected at, int map_size, vec3 no
     return vec2(sm_bounded_quotient(rise.x, area, limit), sm_bounded_quotient(rise.y, area, limit));
 }
 
-// Stored depth gained a texel in x and y on the plane through the point: exact for every projective map. Each is clamped
-// to [-limit, limit], its value also where the light grazes the plane. Zero where the map does not hold the point.
+// Stored depth gained a texel in x and y on the plane through the point: exact for every projective map. Each is
+// clamped to [-limit, limit], its value also where the light grazes the plane. Zero where the map does not hold the
+// point.
 vec2 sm_slope(sm_ShadowMap map, int map_size, vec3 point, vec3 normal, float limit) {
     mat4 texture_from_world = sm_texture_from_world(map);
     if (!sm_all_finite(map.clip_from_world)) return vec2(0.0);

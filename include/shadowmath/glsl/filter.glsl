@@ -43,7 +43,8 @@ bool sm_is_tap_lit(sampler2DArray depths, int layer, int map_size, int depth_ord
     return !(depth_order == sm_one_to_zero ? kept < stored : kept > stored);
 }
 
-// Share of light that reaches the receiver, in [0, 1]; 1 and 0 are exact where all taps agree. What is not finite is lit.
+// Share of light that reaches the receiver, in [0, 1]; 1 and 0 are exact where all taps agree. What is not finite is
+// lit.
 float sm_filtered(sampler2DArray depths, int layer, sm_Receiver receiver, int map_size, int depth_order,
                   int filter_radius, bool tap_plane) {
     int radius = clamp(filter_radius, 0, sm_largest_filter_radius);

@@ -3,7 +3,8 @@
 // Is it a number, and how long is it: the GLSL twin of finite.hpp.
 //
 // Bits decide, for a compiler may take isnan() for false. Equal to the C++ bit for bit where the driver divides and
-// takes roots as IEEE 754 does and keeps denormals (Mesa's software drivers); where it flushes denormals they are zeros.
+// takes roots as IEEE 754 does and keeps denormals (Mesa's software drivers); where it flushes denormals they are
+// zeros.
 #ifndef SM_FINITE_GLSL
 #define SM_FINITE_GLSL
 

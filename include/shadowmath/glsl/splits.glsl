@@ -35,8 +35,8 @@ float sm_root(float ratio, int count) {
     return better;
 }
 
-// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0 uniform.
-// 0 <= z_near < z_far < infinity. Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the
+// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0
+// uniform. 0 <= z_near < z_far < infinity. Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the
 // logarithmic part starts at 2^-20 of z_far (near_clamped).
 sm_Splits sm_practical_splits(float z_near, float z_far, int count, float lambda) {
     sm_Splits splits;
