@@ -51,3 +51,6 @@
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>
+
+// And what it reads.
+#include <shadowmath/gpu.hpp>

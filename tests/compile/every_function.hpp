@@ -62,6 +62,7 @@ int every_function() noexcept {
                   &spot_clip_from_world<T>, &fit_spot<T>);
     count += keep(&bounding_sphere<T>);
     count += keep(&area<T>, &texels_per_pixel<T>, &footprint<T>);
+    count += keep(&gpu_shadow_map<T>, &gpu_map<T>, &gpu_cascades<T>);
     count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,
                   &in_light<T>);
     count += keep(&texel_metres<T>, &rebased<T>);
