@@ -77,17 +77,12 @@ float sm_filtered(sampler2DArray depths, int layer, sm_Receiver receiver, int ma
 // map does not hold the point. `normal` is the surface's own, not the interpolated one.
 float sm_visibility(sampler2DArray depths, int layer, sm_ShadowMap map, int map_size, vec3 point, vec3 normal,
                     sm_MapBias bias, int filter_radius, bool tap_plane) {
-    if (map.visible == 0 || map_size < 1 || !sm_all_finite(map.clip_from_world)) return 1.0;
+    if (map.visible == 0 || map_size < 1) return 1.0;
     mat4 texture_from_world = sm_texture_from_world(map);
     sm_Projected at = sm_projected(texture_from_world, point, map.w_min);
     if (!at.in_front) return 1.0;
     vec2 slope = sm_slope_at(texture_from_world, at, map_size, normal, bias.slope_limit);
-    vec2 own = vec2(0.0);
-    if (tap_plane) {
-        sm_Projected in_clip = sm_projected(map.clip_from_world, point, map.w_min);
-        vec3 across = sm_across_light(map.clip_from_world, in_clip.at);
-        if (in_clip.in_front) own = sm_slope_at(texture_from_world, at, map_size, across, bias.slope_limit);
-    }
+    vec2 own = tap_plane ? sm_lean_at(texture_from_world, at, map_size, bias.slope_limit) : vec2(0.0);
     precise vec2 steeper = slope - own;
     float toward_light = sm_depth_bias(bias, at.w, steeper);
     precise float depth = map.depth_order == sm_one_to_zero ? at.at.z + toward_light : at.at.z - toward_light;
