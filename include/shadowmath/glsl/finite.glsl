@@ -49,7 +49,9 @@ struct sm_Normalized {
 sm_Normalized sm_safe_normalize(vec3 v) {
     float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
     if (!sm_all_finite(v) || !(largest > 0.0)) return sm_Normalized(vec3(0.0), 0.0, false);
-    precise vec3 scaled = v / largest;
+    // A driver that divides by way of the reciprocal loses what is very short or very long: a power of two first.
+    float power = largest < 7.88860905e-31 ? 1.26765060e30 : (largest > 1.26765060e30 ? 7.88860905e-31 : 1.0);
+    precise vec3 scaled = (v * power) / (largest * power);
     precise float size = sqrt(sm_dot(scaled, scaled));
     precise vec3 direction = scaled / size;
     precise float whole = size * largest;
