@@ -45,8 +45,9 @@ template <class T>
     if (!traced && !soft.blocked) return T(1);
     T gap = traced ? exact.gap : soft.gap;
     if (traced && soft.blocked && soft.gap < gap) gap = soft.gap;
+    T const mixed_in = soft.visibility > T(0) ? (soft.visibility < T(1) ? soft.visibility : T(1)) : T(0);
     T const share = softness(gap, soft_gap);
-    return hard * (T(1) - share) + soft.visibility * share;
+    return hard * (T(1) - share) + mixed_in * share;
 }
 
 }  // namespace v0

@@ -88,45 +88,73 @@ template <class T>
     return texel.x >= T(-1) && texel.y >= T(-1) && texel.x <= size + T(1) && texel.y <= size + T(1);
 }
 
-// Mean gap of the occluders that stand in the cone.
+// The four texels around a place, and the mean of what they say by the distance to it: exactly 0 and 1 where they agree.
+template <class T>
+struct Around {
+    int x, y;  // of the lower left one
+    Vec2<T> share;
+
+    explicit Around(Vec2<T> const& texel) noexcept {
+        Vec2<T> const corner(std::floor(texel.x - T(0.5)), std::floor(texel.y - T(0.5)));
+        x = static_cast<int>(corner.x);
+        y = static_cast<int>(corner.y);
+        share = texel - T(0.5) - corner;
+    }
+    template <class Value>
+    [[nodiscard]] T mean(Value const& at) const noexcept {
+        T const lower = at(x, y) * (T(1) - share.x) + at(x + 1, y) * share.x;
+        T const upper = at(x, y + 1) * (T(1) - share.x) + at(x + 1, y + 1) * share.x;
+        return lower * (T(1) - share.y) + upper * share.y;
+    }
+};
+
+// Mean gap of the occluders that stand in the cone. Its tip is as wide as a texel: the first tap weighs the four around
+// the point, so that the edge of a shadow in contact fades on both sides.
 template <class T, class StoredDepth>
 [[nodiscard]] inline SoftShadow<T> search(TapMap<T, StoredDepth> const& map, TapPlane<T> const& plane,
                                           Vec4<T> const& receiver, MapPenumbra<T> const& penumbra, int taps,
                                           Vec2<T> direction) noexcept {
     // The map holds nothing nearer to the light than depth 0.
     T const nothing_beyond = gap_at(penumbra, receiver, T(0));
-    T const widest = nothing_beyond < penumbra.largest_gap ? nothing_beyond : penumbra.largest_gap;
-    T sum = T(0);
-    int found = 0;
-    for (int i = 0; i < taps; ++i, direction = next_direction(direction)) {
-        T const share = i == 0 ? T(0) : (T(i) + T(0.5)) / T(taps), reach = share * share;
+    T const allowed = penumbra.largest_gap < widest_gap<T> ? penumbra.largest_gap : widest_gap<T>;
+    T const widest = nothing_beyond < allowed ? nothing_beyond : allowed;
+    if (!(widest > T(0))) return {};
+    // 0 where there is no occluder in the cone.
+    auto const gap_in_cone = [&](int x, int y, Vec4<T> const& place, T least_gap) {
+        if (!map.holds(x, y)) return T(0);
+        T const depth = map.depth(x, y), gap = gap_at(penumbra, place, depth);
+        if (!(depth < plane.at(x, y)) || !(gap >= least_gap)) return T(0);
+        return gap < widest ? gap : widest;
+    };
+    T sum = T(0), found = T(0);
+    Vec2<T> texel;
+    if (texel_of(receiver, map.size, texel)) {
+        Around<T> const four(texel);
+        sum = four.mean([&](int x, int y) { return gap_in_cone(x, y, receiver, T(0)); });
+        found = four.mean([&](int x, int y) { return gap_in_cone(x, y, receiver, T(0)) > T(0) ? T(1) : T(0); });
+    }
+    for (int i = 1; i < taps; ++i) {
+        direction = next_direction(direction);
+        T const share = (T(i) + T(0.5)) / T(taps), reach = share * share;
         Vec4<T> const place = across(penumbra, receiver, direction * reach, widest);
-        Vec2<T> texel;
         if (!texel_of(place, map.size, texel)) continue;
         int const x = static_cast<int>(std::floor(texel.x)), y = static_cast<int>(std::floor(texel.y));
-        if (!map.holds(x, y)) continue;
-        T const depth = map.depth(x, y), gap = gap_at(penumbra, place, depth);
-        if (!(depth < plane.at(x, y)) || !(gap >= reach * widest)) continue;
-        sum += gap < widest ? gap : widest;
-        ++found;
+        T const gap = gap_in_cone(x, y, place, reach * widest);
+        if (!(gap > T(0))) continue;
+        sum += gap;
+        found += T(1);
     }
-    if (found == 0) return {};
-    return {T(0), sum / T(found), true};
+    if (!(found > T(0))) return {};
+    T const mean = sum / found;
+    return {T(0), mean < widest ? mean : widest, true};
 }
 
 // Share of the four texels around a place that are lit, by their distance to it.
 template <class T, class StoredDepth>
 [[nodiscard]] inline T lit_around(TapMap<T, StoredDepth> const& map, TapPlane<T> const& plane,
                                   Vec2<T> const& texel) noexcept {
-    T const left = std::floor(texel.x - T(0.5)), low = std::floor(texel.y - T(0.5));
-    Vec2<T> const share(texel.x - T(0.5) - left, texel.y - T(0.5) - low);
-    int const x = static_cast<int>(left), y = static_cast<int>(low);
-    auto const is_lit = [&](int i, int j) {
-        return !map.holds(x + i, y + j) || !(plane.at(x + i, y + j) > map.depth(x + i, y + j)) ? T(1) : T(0);
-    };
-    T const below = is_lit(0, 0) * (T(1) - share.x) + is_lit(1, 0) * share.x;
-    T const above = is_lit(0, 1) * (T(1) - share.x) + is_lit(1, 1) * share.x;
-    return below * (T(1) - share.y) + above * share.y;
+    return Around<T>(texel).mean(
+        [&](int x, int y) { return !map.holds(x, y) || !(plane.at(x, y) > map.depth(x, y)) ? T(1) : T(0); });
 }
 
 [[nodiscard]] constexpr int tap_count(int asked) noexcept {
