@@ -2,6 +2,7 @@
 #include "backends/gl/gl_backend.hpp"
 
 #include "backends/gl/context.hpp"
+#include "backends/gl/listen.hpp"
 #include "backends/gl/objects.hpp"
 #include "backends/index_ranges.hpp"
 #include "backends/pass_check.hpp"
@@ -61,7 +62,7 @@ public:
         Current const current(*context_);
         gl_.emplace([this](char const* name) { return context_->proc(name); });
         if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
-        listen();
+        listen(*gl_, messages_);
         resources_.emplace(*gl_);
         describe_vertices();
         prepare_maps(1, 1);  // the receiver's sampler always has a texture
@@ -178,21 +179,6 @@ private:
     template <class Pixel>
     static GLsizei byte_count(Image<Pixel> const& image) {
         return static_cast<GLsizei>(image.pixels.size() * sizeof(Pixel));
-    }
-
-    // Keeps what the driver complains of; its notes on where a buffer lies are no complaint.
-    void listen() {
-        GLDEBUGPROC const keep = [](GLenum, GLenum type, GLuint, GLenum severity, GLsizei, GLchar const* text,
-                                    void const* backend) {
-            bool const always = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR ||
-                                type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR || type == GL_DEBUG_TYPE_PORTABILITY;
-            if (always || severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
-                static_cast<GlBackend*>(const_cast<void*>(backend))->messages_.emplace_back(text);
-        };
-        gl_->Enable(GL_DEBUG_OUTPUT);
-        gl_->Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-        gl_->DebugMessageCallback(keep, this);
-        gl_->DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     }
 
     void describe_vertices() {

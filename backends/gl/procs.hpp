@@ -21,14 +21,15 @@
     X(DeleteShader)                                                                                                 \
     X(CreateProgram) X(AttachShader) X(LinkProgram) X(GetProgramiv) X(GetProgramInfoLog) X(UseProgram)              \
     X(DeleteProgram)                                                                                                \
-    X(CreateBuffers) X(NamedBufferData) X(BindBufferRange) X(DeleteBuffers)                                         \
+    X(CreateBuffers) X(NamedBufferData) X(NamedBufferSubData) X(GetNamedBufferSubData) X(BindBufferBase)            \
+    X(BindBufferRange) X(DeleteBuffers)                                                                             \
     X(CreateVertexArrays) X(VertexArrayVertexBuffer) X(VertexArrayElementBuffer) X(EnableVertexArrayAttrib)         \
     X(VertexArrayAttribFormat) X(VertexArrayAttribBinding) X(BindVertexArray) X(DeleteVertexArrays)                 \
     X(CreateTextures) X(TextureStorage2D) X(TextureStorage3D) X(TextureParameteri) X(BindTextureUnit)               \
-    X(GetTextureImage) X(GetTextureSubImage) X(DeleteTextures)                                                      \
+    X(TextureSubImage3D) X(GetTextureImage) X(GetTextureSubImage) X(DeleteTextures)                                 \
     X(CreateFramebuffers) X(NamedFramebufferTexture) X(NamedFramebufferTextureLayer) X(NamedFramebufferDrawBuffers) \
     X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(BindFramebuffer) X(DeleteFramebuffers)              \
-    X(MultiDrawElements)
+    X(MultiDrawElements) X(DispatchCompute) X(MemoryBarrier)
 // clang-format on
 
 namespace shadowmath::backend::gl {

@@ -24,6 +24,10 @@ inline constexpr Use depth_sampled{VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIM
                                    VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
 inline constexpr Use copied_from{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                  VK_ACCESS_TRANSFER_READ_BIT};
+inline constexpr Use copied_to{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                               VK_ACCESS_TRANSFER_WRITE_BIT};
+inline constexpr Use computed_with{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                   VK_ACCESS_SHADER_READ_BIT};
 
 // The same layout, but nobody waits before (as `from`) or after (as `to`) the change: the mistake that tests make.
 [[nodiscard]] constexpr Use unsynchronised_from(Use use) {

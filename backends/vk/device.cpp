@@ -47,8 +47,8 @@ std::optional<std::uint32_t> drawing_queue_family(VkPhysicalDevice device) {
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    auto const found =
-        std::ranges::find_if(families, [](auto const& f) { return (f.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0; });
+    constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    auto const found = std::ranges::find_if(families, [](auto const& f) { return (f.queueFlags & needed) == needed; });
     if (found == families.end()) return std::nullopt;
     return static_cast<std::uint32_t>(std::distance(families.begin(), found));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A Vulkan device without a window, one queue of it that draws, and what the validation layers say.
+// A Vulkan device without a window, one queue of it that draws and computes, and what the validation layers say.
 #pragma once
 
 #include "backends/vk/vk_backend.hpp"

@@ -20,19 +20,7 @@ SetLayout make_set_layout(VkDevice device) {
     std::array<VkDescriptorSetLayoutBinding, 2> const bindings{
         {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, both, nullptr},
          {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
-    VkDescriptorSetLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    info.pBindings = bindings.data();
-    return {device, vkCreateDescriptorSetLayout, info, "describe what shaders read"};
-}
-
-PipelineLayout make_layout(VkDevice device, SetLayout const& set) {
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = set.address();
-    return {device, vkCreatePipelineLayout, info, "lay out a pipeline"};
+    return vk::make_set_layout(device, bindings);
 }
 
 // Clears its attachments and keeps them. Depth comes last.
@@ -60,14 +48,6 @@ RenderPass make_render_pass(VkDevice device, std::span<VkFormat const> colours) 
     info.subpassCount = 1;
     info.pSubpasses = &subpass;
     return {device, vkCreateRenderPass, info, "make a render pass"};
-}
-
-ShaderModule make_shader(VkDevice device, std::span<std::uint32_t const> words) {
-    VkShaderModuleCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = words.size_bytes();
-    info.pCode = words.data();
-    return {device, vkCreateShaderModule, info, "load a shader"};
 }
 
 struct Stage {

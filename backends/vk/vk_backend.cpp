@@ -4,10 +4,10 @@
 #include "backends/index_ranges.hpp"
 #include "backends/pass_check.hpp"
 #include "backends/vk/barrier.hpp"
+#include "backends/vk/commands.hpp"
 #include "backends/vk/pipelines.hpp"
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
@@ -48,9 +48,8 @@ struct FrameTargets {
 class VulkanBackend final : public Backend {
 public:
     explicit VulkanBackend(VulkanOptions const& options)
-        : mistake_(options.mistake), device_(options), pipelines_(device_.get()),
+        : mistake_(options.mistake), device_(options), commands_(device_), pipelines_(device_.get()),
           constants_(make_host_buffer(device_, constants_size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
-        make_commands();
         make_descriptors();
         prepare_maps(1, 1);  // the receiver's binding always has an image
         if (mistake_ == VulkanMistake::leak) Pipelines(device_.get()).sampler.forget();
@@ -165,23 +164,6 @@ private:
     template <class Pixel>
     static VkDeviceSize byte_count(Image<Pixel> const& image) {
         return image.pixels.size() * sizeof(Pixel);
-    }
-
-    void make_commands() {
-        VkCommandPoolCreateInfo pool{};
-        pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-        pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-        pool.queueFamilyIndex = device_.queue_family();
-        pool_ = {device_.get(), vkCreateCommandPool, pool, "make a command pool"};
-        VkCommandBufferAllocateInfo buffer{};
-        buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-        buffer.commandPool = pool_;
-        buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-        buffer.commandBufferCount = 1;
-        demand(vkAllocateCommandBuffers(device_.get(), &buffer, &commands_), "make a command buffer");
-        VkFenceCreateInfo fence{};
-        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-        finished_ = {device_.get(), vkCreateFence, fence, "make a fence"};
     }
 
     void make_descriptors() {
@@ -320,39 +302,21 @@ private:
         vkCmdCopyImageToBuffer(commands, from.image, copied_from.layout, to.handle, 1, &region);
     }
 
-    // Records, submits and waits: nothing is ever in flight between calls.
     template <class Record>
     void submit(Record const& record) const {
-        demand(vkResetCommandPool(device_.get(), pool_, 0), "reset its commands");
-        VkCommandBufferBeginInfo begin{};
-        begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        demand(vkBeginCommandBuffer(commands_, &begin), "begin its commands");
-        record(commands_);
-        demand(vkEndCommandBuffer(commands_), "end its commands");
-        VkSubmitInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        info.commandBufferCount = 1;
-        info.pCommandBuffers = &commands_;
-        demand(vkQueueSubmit(device_.queue(), 1, &info, finished_), "submit its commands");
-        demand(vkWaitForFences(device_.get(), 1, finished_.address(), VK_TRUE, UINT64_MAX), "wait for its commands");
-        demand(vkResetFences(device_.get(), 1, finished_.address()), "reset a fence");
+        commands_.submit(record);
     }
 
     template <class Record>
     double timed(Record const& record) const {
-        auto const begun = std::chrono::steady_clock::now();
-        submit(record);
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+        return commands_.timed(record);
     }
 
     VulkanMistake mistake_;
     Device device_;  // dies last of all that follows
+    Commands commands_;
     Pipelines pipelines_;
     Buffer constants_;
-    CommandPool pool_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    Fence finished_;
     DescriptorPool descriptors_;
     VkDescriptorSet descriptor_set_ = VK_NULL_HANDLE;
     Buffer vertices_, indices_;

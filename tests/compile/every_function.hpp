@@ -61,7 +61,7 @@ int every_function() noexcept {
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
     count += keep(&row<T>, &from_rows<T>, &nowhere<T>);
     count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
-    count += keep(&tap_weight<T>);
+    count += keep(&covered_texels<T>, &tap_weight<T>);
     count += keep(&is_positive_infinity<T>, &safe_normalize<T>);
     count += keep(&fit_box<T>);
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
@@ -87,7 +87,7 @@ int every_function() noexcept {
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);
-    count += keep(&projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
+    count += keep(&transformed<T>, &projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
     count += keep(&texel_grid<T>, &on_grid<T>);
     count += keep(&plane_through<T>, &mean_height_plane<T>, &plane_projection<T>, &view_dependent_map<T>,
                   &receiver_valid<T>);
