@@ -93,18 +93,24 @@ template <class T>
     return Vec4<T>(warp.x, warp.x * warp.x, warp.y, warp.y * warp.y);
 }
 
-// As vsm_visibility, and never more than either warp alone allows.
+// As vsm_visibility, and never more than either warp alone allows; `warp` is that of the receiver's depth.
 template <class T>
-[[nodiscard]] inline T evsm_visibility(Vec4<T> const& moments, T depth, EvsmExponents<T> const& exponents,
-                                       T least_deviation) noexcept {
-    if (!all_finite(moments) || !all_finite(&depth, 1)) return T(1);
-    Vec2<T> const warp = evsm_warp(depth, exponents);
+[[nodiscard]] inline T evsm_bound(Vec4<T> const& moments, Vec2<T> const& warp, EvsmExponents<T> const& exponents,
+                                  T least_deviation) noexcept {
+    if (!all_finite(moments) || !all_finite(warp)) return T(1);
     T const deviation = T(2) * detail::kept_deviation(least_deviation);
     T const growing =
         detail::most_light(moments.x, moments.y, warp.x, deviation * detail::kept_exponent(exponents.growing) * warp.x);
     T const falling = detail::most_light(moments.z, moments.w, warp.y,
                                          -deviation * detail::kept_exponent(exponents.falling) * warp.y);
     return growing < falling ? growing : falling;
+}
+
+template <class T>
+[[nodiscard]] inline T evsm_visibility(Vec4<T> const& moments, T depth, EvsmExponents<T> const& exponents,
+                                       T least_deviation) noexcept {
+    if (!all_finite(&depth, 1)) return T(1);
+    return evsm_bound(moments, evsm_warp(depth, exponents), exponents, least_deviation);
 }
 
 }  // namespace v0
