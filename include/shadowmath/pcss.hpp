@@ -88,7 +88,8 @@ template <class T>
     return texel.x >= T(-1) && texel.y >= T(-1) && texel.x <= size + T(1) && texel.y <= size + T(1);
 }
 
-// The four texels around a place, and the mean of what they say by the distance to it: exactly 0 and 1 where they agree.
+// The four texels around a place, and the mean of what they say by the distance to it: exactly 0 and 1 where they
+// agree.
 template <class T>
 struct Around {
     int x, y;  // of the lower left one

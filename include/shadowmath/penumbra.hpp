@@ -9,8 +9,8 @@
 //      receiver  ----\|/----
 //                     p               penumbra, metres across the light:  2 r gap
 //
-// r is a sun's tangent of its angular radius and a lamp's radius in metres. With the light l of light.hpp, the cone from
-// a point p to the rim of the light is, in homogeneous coordinates,
+// r is a sun's tangent of its angular radius and a lamp's radius in metres. With the light l of light.hpp, the cone
+// from a point p to the rim of the light is, in homogeneous coordinates,
 //
 //   p + gap (r u - l)      u: unit, across the light
 //
@@ -98,8 +98,8 @@ template <class T>
     return matrix;
 }
 
-// Linear in the light's radius; a radius that is negative or not finite is 0, as is that of a light that the map is not
-// of: its shadows are hard.
+// Linear in the light's radius; a radius that is negative or not finite is 0, and where light or map cannot be
+// used: the shadows are hard.
 template <class T>
 [[nodiscard]] inline MapPenumbra<T> penumbra_for(ShadowMap<T> const& map, Light<T> const& light,
                                                  T light_radius) noexcept {
@@ -118,7 +118,8 @@ template <class T>
 }
 
 // Where the plane across the light through the receiver is met by the light ray that passes the cone from `receiver` to
-// the light at `gap`, toward `u` in the unit disk. Exact in any map; the occluder itself lies gap * depth_of_gap nearer.
+// the light at `gap`, toward `u` in the unit disk. Exact in any map; what stands there at that gap lies gap *
+// depth_of_gap nearer.
 template <class T>
 [[nodiscard]] inline Vec4<T> across(MapPenumbra<T> const& penumbra, Vec4<T> const& receiver, Vec2<T> const& u,
                                     T gap) noexcept {
@@ -131,8 +132,8 @@ template <class T>
     return (place.z - depth * place.w) / penumbra.depth_of_gap;
 }
 
-// Half axes of the kernel in texels, along the map's x and y: the share of the box around it. For choosing a filter,
-// or the margin of a map; taps themselves come from across().
+// Half the width and height, in texels, of the box around the kernel of a gap, to first order in gap. For choosing a
+// filter, or the margin of a map; taps themselves come from across().
 template <class T>
 [[nodiscard]] inline Vec2<T> kernel_texels(MapPenumbra<T> const& penumbra, Vec4<T> const& receiver, int map_size,
                                            T gap) noexcept {
@@ -141,7 +142,9 @@ template <class T>
     Vec2<T> const at = Vec2<T>(receiver) / receiver.w;
     Vec2<T> const x = Vec2<T>(penumbra.rim_x) - at * penumbra.rim_x.w;
     Vec2<T> const y = Vec2<T>(penumbra.rim_y) - at * penumbra.rim_y.w;
-    Vec2<T> const texels(std::hypot(x.x, y.x) * scale, std::hypot(x.y, y.y) * scale);
+    Vec2<T> const half_axes(safe_normalize(Vec3<T>(x.x, y.x, T(0))).length,
+                            safe_normalize(Vec3<T>(x.y, y.y, T(0))).length);
+    Vec2<T> const texels = half_axes * scale;
     return all_finite(texels) ? texels : Vec2<T>(T(0));
 }
 

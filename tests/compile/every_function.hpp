@@ -93,8 +93,8 @@ int every_function() noexcept {
                   &receiver_valid<T>);
     count += keep(&pose_looking<T>, &perspective_view<T>, &orthographic_view<T>, &view_from_projection<T>,
                   &orthonormalized<T>, &point_at<T>, &eye_depth<T>);
-    count += keep(&vsm_moments<T>, &vsm_visibility<T>, &evsm_warp<T>, &evsm_moments<T>, &evsm_bound<T>,
-                  &evsm_visibility<T>);
+    count +=
+        keep(&vsm_moments<T>, &vsm_visibility<T>, &evsm_warp<T>, &evsm_moments<T>, &evsm_bound<T>, &evsm_visibility<T>);
     count += keep(&printed_simple_warp<T>, &corrected_simple_warp<T>, &optimal_inverse_centre<T>, &perspective_warp<T>,
                   &warp_axes<T>, &simple_perspective_map<T>);
     return count;

@@ -76,8 +76,8 @@ TYPED_TEST(AnyMoments, AreNeverDarkerThanTheKernel) {
         auto const vsm = drawn.mean<T>(vsm_moments<T>);
         auto const evsm = drawn.mean<T>([&warp](T depth) { return evsm_moments(depth, warp); });
         auto const msm = drawn.mean<T>(msm_moments<T>);
-        // The variance v has lost 12 eps of the mean square, which is at most v + 2 d^2 + 2 w^2 for a receiver at w and d
-        // from the mean; v / (v + d^2) changes by d^2 / (v + d^2)^2 of that, and v is at least (deviation w)^2.
+        // The variance v has lost 12 eps of the mean square, which is at most v + 2 d^2 + 2 w^2 for a receiver at w and
+        // d from the mean; v / (v + d^2) changes by d^2 / (v + d^2)^2 of that, and v is at least (deviation w)^2.
         T const deviation = T(0.01);
         double const lost = 24 * eps + 6 * eps / 1e-4;
         RC_ASSERT(vsm_visibility(vsm, receiver, deviation) >= truth - lost);

@@ -173,8 +173,8 @@ TEST(AreaLight, IsSeenAsTheSegmentOfADiskPastAStraightEdge) {
         double const chord = std::clamp(x, -1.0, 1.0);
         double const share = 0.5 + (chord * std::sqrt(1.0 - chord * chord) + std::asin(chord)) / 3.14159265358979;
         glm::dvec3 const point(2.0 + x * penumbra_radius * std::sqrt(2.0), 0.0, 0.3);
-        // The floor slopes away from the plane across the light, which moves the edge's distance by up to 5 percent; 256
-        // points tell shares apart to about 1 percent.
+        // The floor slopes away from the plane across the light, which moves the edge's distance by up to 5 percent;
+        // 256 points tell shares apart to about 1 percent.
         EXPECT_NEAR(lit_share(oracle, point, up, light), share, 0.03) << x;
     }
 }

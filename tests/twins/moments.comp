@@ -55,7 +55,6 @@ void answer(uint function) {
             moments = take4();
             depth = take();
             exponents = take2();
-            // On three sides of a step the warps of two mathematical libraries agree; on the step itself either is right.
             give(sm_evsm_visibility(moments, depth, exponents, take()) < 0.5);
     }
 }

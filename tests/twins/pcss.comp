@@ -25,7 +25,8 @@ void answer(uint function) {
             order = take_int();
             search_taps = take_int();
             filter_taps = take_int();
-            give(sm_soft_filtered(depths, layer, receiver, w, penumbra, size, order, search_taps, filter_taps, take2()));
+            give(sm_soft_filtered(depths, layer, receiver, w, penumbra, size, order, search_taps, filter_taps,
+                                  take2()));
             break;
         case 2u:
             layer = take_int();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Percentage-closer soft shadows: the GLSL twin of pcss.hpp. Look for occluders in the cone that the light subtends, take
-// their mean gap, filter as wide as the penumbra of that gap. Equal to the C++ bit for bit where the driver divides and
-// takes roots as IEEE 754 does (Mesa's software drivers); on others a tap at the very edge may fall to the other side.
+// Percentage-closer soft shadows: the GLSL twin of pcss.hpp. Look for occluders in the cone that the light subtends,
+// take their mean gap, filter as wide as the penumbra of that gap. Equal to the C++ bit for bit where the driver divides
+// and takes roots as IEEE 754 does (Mesa's software drivers); on others a tap at the very edge may fall to the other
+// side.
 //
 // `depths` holds one map a layer, as they were stored; its sampler compares nothing and filters nothing. `turn` is
 // (cos, sin) of an angle that turns the taps: one a pixel trades bands for noise, (1, 0) turns nothing.
@@ -131,8 +132,8 @@ float sm_lit_around(sampler2DArray depths, int layer, sm_TapPlane plane, int map
     return sm_mean_of_four(lit, share);
 }
 
-// Share of light that reaches a receiver whose clip w is `w`. Without an occluder in the cone exactly 1; no plane shadows
-// itself however wide the kernel. What is not finite is lit.
+// Share of light that reaches a receiver whose clip w is `w`. Without an occluder in the cone exactly 1; no plane
+// shadows itself however wide the kernel. What is not finite is lit.
 sm_SoftShadow sm_soft_filtered(sampler2DArray depths, int layer, sm_Receiver receiver, float w, sm_MapPenumbra penumbra,
                                int map_size, int depth_order, int search_taps, int filter_taps, vec2 turn) {
     sm_SoftShadow lit = sm_SoftShadow(1.0, 0.0, false);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How wide the edge of a shadow is under a light that has a size: the GLSL twin of what penumbra.hpp does in each shader
-// invocation. What is done once a map (penumbra_for) comes in as sm_MapPenumbra. Equal to the C++ bit for bit where the
-// driver divides as IEEE 754 does (Mesa's software drivers), but for sm_kernel_texels: within 2 ulp.
+// How wide the edge of a shadow is under a light that has a size: the GLSL twin of what penumbra.hpp does in each
+// shader invocation. What is done once a map (penumbra_for) comes in as sm_MapPenumbra. Equal to the C++ bit for bit where the
+// driver divides as IEEE 754 does (Mesa's software drivers).
 //
 // Lights are (direction toward the light, 0) or (position, 1).
 #ifndef SM_PENUMBRA_GLSL
@@ -33,7 +33,7 @@ float sm_gap_of_metres(vec4 light, vec3 point, float metres) {
     if (!sm_all_finite(metres) || !(metres > 0.0) || !sm_all_finite(point)) return 0.0;
     if (light.w == 0.0) return metres < sm_widest_gap ? metres : sm_widest_gap;
     precise vec3 way = point - light.xyz;
-    float size = sm_safe_normalize(way).length;
+    float size = sm_safe_normalize(way).size;
     precise float beyond = size - metres;
     return metres < size ? sm_bounded_quotient(metres, beyond, sm_widest_gap) : sm_widest_gap;
 }
@@ -44,7 +44,7 @@ float sm_metres_of_gap(vec4 light, vec3 point, float gap) {
     float kept = gap < sm_widest_gap ? gap : sm_widest_gap;
     if (light.w == 0.0) return kept;
     precise vec3 way = point - light.xyz;
-    precise float metres = sm_safe_normalize(way).length * (kept / (1.0 + kept));
+    precise float metres = sm_safe_normalize(way).size * (kept / (1.0 + kept));
     return sm_all_finite(metres) ? metres : 0.0;
 }
 
@@ -68,7 +68,8 @@ vec2 sm_kernel_texels(sm_MapPenumbra penumbra, vec4 receiver, int map_size, floa
     precise vec2 at = receiver.xy / receiver.w;
     precise vec2 x = penumbra.rim_x.xy - at * penumbra.rim_x.w;
     precise vec2 y = penumbra.rim_y.xy - at * penumbra.rim_y.w;
-    precise vec2 texels = sqrt(x * x + y * y) * scale;
+    vec2 half_axes = vec2(sm_safe_normalize(vec3(x.x, y.x, 0.0)).size, sm_safe_normalize(vec3(x.y, y.y, 0.0)).size);
+    precise vec2 texels = half_axes * scale;
     return sm_all_finite(texels) ? texels : vec2(0.0);
 }
 

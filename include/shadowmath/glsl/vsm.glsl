@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Variance shadow maps, plain and exponential: the GLSL twin of vsm.hpp. Equal to the C++ bit for bit where the driver
-// divides as IEEE 754 does (Mesa's software drivers), but for sm_evsm_warp and what is made of it: GLSL's exp is good to
-// 3 + 2 |c| ulp, Mesa's to 128.
+// divides as IEEE 754 does (Mesa's software drivers), but for sm_evsm_warp, 128 ulp, and what is made of it: GLSL's exp
+// is good to 3 + 2 |x| ulp.
 #ifndef SM_VSM_GLSL
 #define SM_VSM_GLSL
 
