@@ -86,7 +86,7 @@ struct MapPenumbra {
     Vec4<T> rim_x{T(0)};            // what a place gains per unit of gap from the cone's axis to its rim
     Vec4<T> rim_y{T(0)};            // and at a right angle to it
     T depth_of_gap = T(1);          // k: depth w lost per unit of gap along the axis, > 0
-    T largest_gap = widest_gap<T>;  // occluders farther away are not looked for; lower it where the tallest is known
+    T largest_gap = widest_gap<T>;  // what is farther counts as this far: lower it where heights are known
 };
 
 // The matrix whose places a MapPenumbra speaks of.
@@ -98,19 +98,19 @@ template <class T>
     return matrix;
 }
 
-// Linear in the light's radius; a radius that is negative or not finite is 0, and where light or map cannot be
-// used: the shadows are hard.
+// Linear in the light's radius. Where that is negative or not finite, or light or map cannot be used, it is 0: shadows
+// are hard.
 template <class T>
 [[nodiscard]] inline MapPenumbra<T> penumbra_for(ShadowMap<T> const& map, Light<T> const& light,
                                                  T light_radius) noexcept {
     MapPenumbra<T> penumbra;
     T const gain = depth_gain(map, light);
-    Tangents<T> const across = tangents(light.direction);
-    if (!(gain > T(0)) || !across.ok || !all_finite(&light_radius, 1)) return penumbra;
+    Tangents<T> const disk = tangents(light.direction);
+    if (!(gain > T(0)) || !disk.ok || !all_finite(&light_radius, 1)) return penumbra;
     penumbra.depth_of_gap = gain;
     Mat4<T> const place = place_from_world(map);
     T const radius = light_radius > T(0) ? light_radius : T(0);
-    Vec4<T> const rim_x = place * Vec4<T>(across.s * radius, T(0)), rim_y = place * Vec4<T>(across.t * radius, T(0));
+    Vec4<T> const rim_x = place * Vec4<T>(disk.s * radius, T(0)), rim_y = place * Vec4<T>(disk.t * radius, T(0));
     if (!all_finite(rim_x) || !all_finite(rim_y)) return penumbra;
     penumbra.rim_x = rim_x;
     penumbra.rim_y = rim_y;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Percentage-closer soft shadows: the GLSL twin of pcss.hpp. Look for occluders in the cone that the light subtends,
-// take their mean gap, filter as wide as the penumbra of that gap. Equal to the C++ bit for bit where the driver divides
-// and takes roots as IEEE 754 does (Mesa's software drivers); on others a tap at the very edge may fall to the other
-// side.
+// take their mean gap, filter as wide as the penumbra of that gap. Equal to the C++ bit for bit where the driver
+// divides and takes roots as IEEE 754 does (Mesa's software drivers); on others a tap at the very edge may fall to the
+// other side.
 //
 // `depths` holds one map a layer, as they were stored; its sampler compares nothing and filters nothing. `turn` is
 // (cos, sin) of an angle that turns the taps: one a pixel trades bands for noise, (1, 0) turns nothing.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // How wide the edge of a shadow is under a light that has a size: the GLSL twin of what penumbra.hpp does in each
-// shader invocation. What is done once a map (penumbra_for) comes in as sm_MapPenumbra. Equal to the C++ bit for bit where the
-// driver divides as IEEE 754 does (Mesa's software drivers).
+// shader invocation. What is done once a map (penumbra_for) comes in as sm_MapPenumbra. Equal to the C++ bit for bit
+// where the driver divides as IEEE 754 does (Mesa's software drivers).
 //
 // Lights are (direction toward the light, 0) or (position, 1).
 #ifndef SM_PENUMBRA_GLSL
@@ -17,7 +17,7 @@ struct sm_MapPenumbra {
     vec4 rim_x;          // what a place gains per unit of gap from the cone's axis to its rim
     vec4 rim_y;          // and at a right angle to it
     float depth_of_gap;  // depth w lost per unit of gap along the axis, > 0
-    float largest_gap;   // occluders farther away are not looked for
+    float largest_gap;   // what is farther counts as this far
     float unused_x;
     float unused_y;
 };
