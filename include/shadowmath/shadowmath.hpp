@@ -66,3 +66,6 @@
 #include <shadowmath/penumbra.hpp>
 #include <shadowmath/sampling.hpp>
 #include <shadowmath/vsm.hpp>
+
+// And what it reads.
+#include <shadowmath/gpu.hpp>

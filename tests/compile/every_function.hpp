@@ -81,6 +81,7 @@ int every_function() noexcept {
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
                   &spot_clip_from_world<T>, &fit_spot<T>);
     count += keep(&bounding_sphere<T>);
+    count += keep(&gpu_shadow_map<T>, &gpu_map<T>, &gpu_penumbra<T>, &gpu_cascades<T>);
     count += keep(&texels_per_pixel<T>, &footprint<T>);
     count += keep(&softness<T>, &hybrid_visibility<T>);
     count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,

@@ -83,17 +83,12 @@ struct sm_Seen {
 // the interpolated one.
 sm_Seen sm_seen_by(sm_ShadowMap map, int map_size, vec3 point, vec3 normal, sm_MapBias bias, bool tap_plane) {
     sm_Seen unseen = sm_Seen(sm_Receiver(vec2(0.0), 0.0, vec2(0.0)), 1.0, false);
-    if (map.visible == 0 || map_size < 1 || !sm_all_finite(map.clip_from_world)) return unseen;
+    if (map.visible == 0 || map_size < 1) return unseen;
     mat4 texture_from_world = sm_texture_from_world(map);
     sm_Projected at = sm_projected(texture_from_world, point, map.w_min);
     if (!at.in_front) return unseen;
     vec2 slope = sm_slope_at(texture_from_world, at, map_size, normal, bias.slope_limit);
-    vec2 own = vec2(0.0);
-    if (tap_plane) {
-        sm_Projected in_clip = sm_projected(map.clip_from_world, point, map.w_min);
-        vec3 across = sm_across_light(map.clip_from_world, in_clip.at);
-        if (in_clip.in_front) own = sm_slope_at(texture_from_world, at, map_size, across, bias.slope_limit);
-    }
+    vec2 own = tap_plane ? sm_lean_at(texture_from_world, at, map_size, bias.slope_limit) : vec2(0.0);
     precise vec2 steeper = slope - own;
     float toward_light = sm_depth_bias(bias, at.w, steeper);
     precise float depth = map.depth_order == sm_one_to_zero ? at.at.z + toward_light : at.at.z - toward_light;
