@@ -61,7 +61,13 @@
 
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
+#include <shadowmath/hfts.hpp>
+#include <shadowmath/moments.hpp>
+#include <shadowmath/msm.hpp>
+#include <shadowmath/pcss.hpp>
+#include <shadowmath/penumbra.hpp>
 #include <shadowmath/sampling.hpp>
+#include <shadowmath/vsm.hpp>
 
 // And what it reads.
 #include <shadowmath/gpu.hpp>
