@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The shadow volume of a triangle as four half spaces, each arranged so that one pixel of a surface sees it as a half
-// plane: one through the light and each edge, and the triangle's own plane.
+// plane: the triangle's own plane, and one through the light and each edge.
 //
-//   a sample is in shadow  <=>  it is on the inner side of all three edge planes, and behind the triangle
+//   a sample is in shadow  <=>  it is behind the triangle, and on the inner side of all three edge planes
 //                          <=>  the segment from the sample to the light meets the triangle
 //
 // An edge's plane depends on its two ends alone and changes nothing but its sign when they are exchanged: the two
@@ -15,6 +15,7 @@
 
 #include <shadowmath/config.hpp>
 #include <shadowmath/finite.hpp>
+#include <shadowmath/irregular/lanes.hpp>
 #include <shadowmath/irregular/microquad.hpp>
 #include <shadowmath/light.hpp>
 
@@ -44,40 +45,85 @@ struct ContactMargin {
     T share = T(0);  // of the sample's depth, on top
 };
 
-template <class T>
+// Of one triangle where V is a scalar, of sixteen where it is Lanes. planes[0] is the triangle's own, then its edges'.
+template <class V>
 struct ShadowVolume {
-    PixelPlane<T> behind;
-    PixelPlane<T> edge[3];
-    bool casts = false;  // false: no area as seen from the light, or not finite
+    PixelPlane<V> planes[4];
+    V along;  // the triangle's normal with the light: 0 where it has no area as seen from there, and casts nothing
 };
 
-// The vertices are points of the pixel frame. The margin is taken along the triangle's normal, up to sqrt(3) times as
-// much off the axes.
+namespace detail {
+
+template <class V>
+struct Triple {
+    V x, y, z;
+};
+
+template <class V>
+[[nodiscard]] inline Triple<V> difference(Triple<V> const& a, Triple<V> const& b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class V>
+[[nodiscard]] inline Triple<V> sum(Triple<V> const& a, Triple<V> const& b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class V>
+[[nodiscard]] inline Triple<V> scaled(Triple<V> const& a, V const& by) noexcept {
+    return {a.x * by, a.y * by, a.z * by};
+}
+template <class V>
+[[nodiscard]] inline V inner(Triple<V> const& a, Triple<V> const& b) noexcept {
+    return fused(a.x, b.x, fused(a.y, b.y, a.z * b.z));
+}
+// Negated to the last bit when b is.
+template <class V>
+[[nodiscard]] inline Triple<V> crossed(Triple<V> const& a, Triple<V> const& b) noexcept {
+    V const zero = a.x - a.x;
+    return {fused(a.y, b.z, zero - a.z * b.y), fused(a.z, b.x, zero - a.x * b.z), fused(a.x, b.y, zero - a.y * b.x)};
+}
+
+// `all` makes a V of a scalar.
+template <class V, class T, class All>
+[[nodiscard]] inline ShadowVolume<V> volume_of(PixelFrame<T> const& frame, PixelLight<T> const& light,
+                                               Triple<V> const (&p)[3], V const& margin_metres, T margin_share,
+                                               All const& all) noexcept {
+    auto const triple = [&all](Vec3<T> const& v) { return Triple<V>{all(v.x), all(v.y), all(v.z)}; };
+    auto const plane = [&frame](Triple<V> const& n, V const& offset) {
+        if (frame.kind == ViewKind::perspective) return PixelPlane<V>{n.x, n.y, n.z, offset};
+        return PixelPlane<V>{n.x, n.y, offset, n.z};
+    };
+    Triple<V> const source = triple(light.at);
+    Triple<V> const normal = crossed(difference(p[1], p[0]), difference(p[2], p[0]));
+    ShadowVolume<V> volume;
+    volume.along = inner(normal, light.parallel ? source : difference(p[0], source));
+    // Where the light meets the other side, everything is turned over.
+    V const sign = with_sign_of(all(T(1)), volume.along);
+    Triple<V> const facing = scaled(normal, sign);
+    Triple<V> const in_world = sum(scaled(triple(frame.to_across), facing.x),
+                                   sum(scaled(triple(frame.to_upward), facing.y), scaled(triple(frame.to_inward), facing.z)));
+    V const unit = absolute(in_world.x) + absolute(in_world.y) + absolute(in_world.z);
+    volume.planes[0] = plane({facing.x, facing.y, facing.z - unit * all(margin_share)},
+                             all(T(0)) - fused(unit, margin_metres, inner(facing, p[0])));
+    for (int i = 0; i < 3; ++i) {
+        Triple<V> const &from = p[i], &to = p[(i + 1) % 3];
+        Triple<V> const both = sum(from, to);
+        Triple<V> const away = light.parallel ? source : difference(both, scaled(source, all(T(2))));
+        Triple<V> const n = crossed(away, scaled(difference(to, from), sign));
+        volume.planes[1 + i] = plane(n, inner(n, both) * all(T(-0.5)));
+    }
+    return volume;
+}
+
+}  // namespace detail
+
+// The vertices are points of the pixel frame, finite. The margin is taken along the triangle's normal: exactly along
+// the axes, up to sqrt(3) times as much off them.
 template <class T>
 [[nodiscard]] inline ShadowVolume<T> shadow_volume(PixelFrame<T> const& frame, PixelLight<T> const& light,
                                                    Vec3<T> const& p0, Vec3<T> const& p1, Vec3<T> const& p2,
                                                    ContactMargin<T> const& margin) noexcept {
-    ShadowVolume<T> volume;
-    Vec3<T> const normal = glm::cross(p1 - p0, p2 - p0);
-    T const along = glm::dot(normal, light.parallel ? light.at : p0 - light.at);
-    if (!(along < T(0)) && !(along > T(0))) return volume;
-    volume.casts = true;
-    // Where the light meets the other side, everything is turned over.
-    T const sign = along > T(0) ? T(1) : T(-1);
-    Vec3<T> const inner = normal * sign;
-    Vec3<T> const in_world = frame.to_across * inner.x + frame.to_upward * inner.y + frame.to_inward * inner.z;
-    T const unit = std::abs(in_world.x) + std::abs(in_world.y) + std::abs(in_world.z);
-    volume.behind = pixel_plane(frame.kind, inner - Vec3<T>(T(0), T(0), unit * margin.share),
-                                -glm::dot(inner, p0) - unit * margin.metres);
-    Vec3<T> const points[3] = {p0, p1, p2};
-    for (int i = 0; i < 3; ++i) {
-        Vec3<T> const &from = points[i], &to = points[(i + 1) % 3];
-        Vec3<T> const both = from + to;
-        Vec3<T> const away = light.parallel ? light.at : both - light.at * T(2);
-        Vec3<T> const n = glm::cross(away, (to - from) * sign);
-        volume.edge[i] = pixel_plane(frame.kind, n, glm::dot(n, both) * T(-0.5));
-    }
-    return volume;
+    detail::Triple<T> const p[3] = {{p0.x, p0.y, p0.z}, {p1.x, p1.y, p1.z}, {p2.x, p2.y, p2.z}};
+    return detail::volume_of(frame, light, p, margin.metres, margin.share, [](T value) { return value; });
 }
 
 // What a pixel sees of a half space: inside where c + x u + y v >= 0, u and v from 0 to 1 over the pixel.

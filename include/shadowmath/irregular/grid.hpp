@@ -35,7 +35,9 @@ namespace shadowmath {
 inline namespace v0 {
 
 inline constexpr int tile_side = 4;
-inline constexpr int most_levels = 16;
+inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
+inline constexpr int most_levels = 8;
+inline constexpr int cell_shift = 4;   // a cell is 16 x 16 texels of the finest
 
 // What the eye sees, row by row, `width` pixels each. Sky is a pixel whose normal is zero, whose depth is not positive,
 // or of which anything is not finite.
@@ -48,13 +50,21 @@ struct Receivers {
     int normal_stride = 3;
 };
 
+// Part of a picture; a width or height of 0 stands for all that follows.
+struct PixelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
 // What the lists of a buffer came to.
 struct ListCounts {
-    std::uint32_t tiles = 0;     // with a pixel that light may reach
-    std::uint32_t parts = 0;     // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
+    std::uint32_t tiles = 0;    // with a pixel that light may reach
+    std::uint32_t parts = 0;    // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
     std::uint32_t nodes = 0;
-    std::uint32_t lists = 0;     // texels that are not empty
-    std::uint32_t longest = 0;   // nodes in one texel
+    std::uint32_t lists = 0;    // texels that are not empty
+    std::uint32_t longest = 0;  // nodes in one texel
 };
 
 struct StorageSize {
@@ -70,34 +80,36 @@ struct Storage {
     StorageSize size;
 };
 
+// A picture's part as the light sees it. Everything is indexed with 32 bits and laid out in arrays of one kind, so that
+// it can be handed to a GPU as it is.
 template <class T>
 struct IrregularBuffer {
     PixelFrame<T> frame;
     PixelLight<T> light;
-    Vec4<T> row[4];            // texel x, texel y, depth, w of a point relative to the eye
-    T texel_error = T(0);      // rounding of a texel coordinate times w, for a metre from the eye
+    PixelRect rect;
+    Vec4<T> row[4];             // texel x, texel y, depth and w of a point, from its place relative to the eye
+    T texel_error = T(0);       // what rounding may add to a texel coordinate times w, for each metre from the eye
+    T texel_error_here = T(0);  // and whatever the distance
     T depth_error = T(0);
-    T texel_error_here = T(0); // and whatever the distance
     T depth_error_here = T(0);
-    T contact_reach = T(0);    // metres from the world's origin to the eye, twice, and
-    T contact_ray = T(0);      // the longest ray of the picture at depth 1: margins of contact, see trace.hpp
-    int first_row = 0;         // of the picture
-    int row_count = 0;
+    T contact_reach = T(0);     // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
+    T contact_ray = T(0);
     int tiles_across = 0;
     int tile_count = 0;
     int map_size = 0;
     int level_count = 0;
-    std::uint32_t levels_used = 0;               // bit l: level l has a node
+    int cells_across = 0;
     std::uint32_t texels_before[most_levels]{};  // of the finer levels
+    std::uint32_t levels_used = 0;               // bit l: level l has a node
 
     // Tiles: sixteen pixels each, four rows of four.
-    T* quad = nullptr;                    // q, q_x, q_y: three times sixteen
-    std::uint32_t* mask = nullptr;        // sixteen
-    std::uint32_t* alive = nullptr;       // bit k: the light may reach pixel k, and a sample of it is not yet covered
-    std::uint32_t* last_caster = nullptr; // one more than the index of the triangle that was tested last
+    T* quad = nullptr;               // q, q_x, q_y: three times sixteen
+    std::uint32_t* mask = nullptr;   // sixteen
+    std::uint32_t* state = nullptr;  // bit k: light may reach pixel k, and a sample of it is not yet covered; and one
+                                     // more than the index of the triangle that was tested last
 
-    // Nodes, sorted by texel.
-    T* lo_x = nullptr;  // bounds in texels of level 0, and depth, of which the far end is kept
+    // Nodes, sorted by texel: bounds in texels of the finest level, the far end of the depths, the tile.
+    T* lo_x = nullptr;
     T* hi_x = nullptr;
     T* lo_y = nullptr;
     T* hi_y = nullptr;
@@ -105,64 +117,89 @@ struct IrregularBuffer {
     std::uint32_t* tile = nullptr;
     std::uint32_t* first = nullptr;  // node of each texel, all levels end to end; one more at the end
 
+    // Cells, to leave out levels that have nothing there.
+    T* cell_depth = nullptr;               // far end over the nodes that touch the cell
+    std::uint32_t* cell_levels = nullptr;  // bit l: level l has a node there
+
+    // For trace: triangles are put in order of their cells, a block at a time.
+    std::uint32_t* block_cell = nullptr;
+    std::uint32_t* block_order = nullptr;
+    std::uint32_t* block_count = nullptr;
+
     // Over all nodes.
     T least_x = T(0), most_x = T(0), least_y = T(0), most_y = T(0), most_depth = T(0), least_w = T(0), most_w = T(0);
 
     ListCounts counts;
-    Faults faults;  // not_finite, bad_projection, ..., storage_too_small; nothing is listed then
+    Faults faults;
 };
 
-// Texels of the level: half as many along each side as of the finer one, rounded up.
+// Texels along a side of the level.
 [[nodiscard]] constexpr int level_size(int map_size, int level) noexcept {
-    return static_cast<int>((static_cast<std::int64_t>(map_size) + (std::int64_t(1) << level) - 1) >> level);
+    return ((map_size - 1) >> level_shift * level) + 1;
 }
 
-// What a buffer needs for `rows` rows of a picture, a grid of map_size^2 texels and `capacity` parts of tiles. Parts
-// are few more than tiles: the default takes twice as many. 16 times as many are always enough.
-[[nodiscard]] constexpr StorageSize storage_for(int width, int rows, int map_size, int capacity = 0) noexcept {
-    if (width < 1 || rows < 1 || map_size < 1) return {};
-    auto const up = [](int pixels) { return (static_cast<std::size_t>(pixels) + 3) / 4; };
-    std::size_t const tiles = up(width) * up(rows);
-    std::size_t const parts = capacity > 0 ? static_cast<std::size_t>(capacity) : 2 * tiles;
+inline constexpr int caster_block = 1 << 15;
+
+// What a buffer needs for width x height pixels, a grid of map_size^2 texels and `capacity` parts of tiles. Parts are
+// one and a half times as many as tiles in ordinary pictures and 16 times as many at most: three times as many are
+// taken where capacity is 0. A map_size beyond 2^14 is no grid.
+[[nodiscard]] constexpr StorageSize storage_for(int width, int height, int map_size, int capacity = 0) noexcept {
+    if (width < 1 || height < 1 || map_size < 1 || map_size > 1 << 14) return {};
+    auto const up = [](int size, int step) { return static_cast<std::size_t>((size - 1) / step + 1); };
+    std::size_t const tiles = up(width, tile_side) * up(height, tile_side);
+    std::size_t const parts = capacity > 0 ? static_cast<std::size_t>(capacity) : 3 * tiles;
     std::size_t texels = 0;
-    for (int level = 0; level < most_levels; ++level) {
-        auto const side = static_cast<std::size_t>(level_size(map_size, level));
-        texels += side * side;
-        if (side == 1) break;
+    for (int level = 0, side = 0; side != 1; ++level) {
+        side = level_size(map_size, level);
+        texels += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     }
+    std::size_t const cells = up(map_size, 1 << cell_shift) * up(map_size, 1 << cell_shift);
     // Behind each array of nodes sixteen more can be read.
     std::size_t const nodes = 4 * parts + lane_count;
-    return {48 * tiles + 5 * parts + 5 * nodes + lane_count, 18 * tiles + 2 * parts + nodes + texels + 2};
+    return {3 * lane_count * tiles + 5 * nodes + 5 * parts + cells,
+            (lane_count + 2) * tiles + nodes + 3 * parts + texels + 2 + 2 * cells + 2 + 2 * caster_block};
 }
 
 namespace detail {
 
+[[nodiscard]] inline int lowest_bit(std::uint32_t bits) noexcept {
+#if defined(__GNUC__)
+    return __builtin_ctz(bits);
+#else
+    int place = 0;
+    while ((bits >> place & 1u) == 0) ++place;
+    return place;
+#endif
+}
+
 // The parts of a buffer that only its making sees.
 template <class T>
 struct Parts {
-    T* bounds = nullptr;              // lo x, hi x, lo y, hi y, depth of each
-    std::uint32_t* place = nullptr;   // tile and level
+    T* bounds = nullptr;             // lo x, hi x, lo y, hi y, depth of each
+    std::uint32_t* place = nullptr;  // tile; texel x and y, 16 bits each; level, and whether it reaches x + 1 and y + 1
     std::uint32_t capacity = 0;
 };
 
-template <class T>
 struct TexelRange {
     int x0, x1, y0, y1;
 };
 
+// What lies beside the map belongs to its border.
 template <class T>
-[[nodiscard]] inline int texel_of(T coordinate, int size) noexcept {
+[[nodiscard]] inline int texel_of(T coordinate, T last) noexcept {
     // Written so that NaN ends at 0.
-    T const last = T(size - 1);
     T const inside = coordinate > T(0) ? coordinate : T(0);
     return static_cast<int>(inside < last ? inside : last);
 }
 
-// Texels at a level; what lies beside the map belongs to its border.
 template <class T>
-[[nodiscard]] inline TexelRange<T> texels_at(T const* bounds, int map_size, int level) noexcept {
-    return {texel_of(bounds[0], map_size) >> level, texel_of(bounds[1], map_size) >> level,
-            texel_of(bounds[2], map_size) >> level, texel_of(bounds[3], map_size) >> level};
+[[nodiscard]] inline TexelRange texels_of(T const* bounds, int map_size) noexcept {
+    T const last = T(map_size - 1);
+    return {texel_of(bounds[0], last), texel_of(bounds[1], last), texel_of(bounds[2], last), texel_of(bounds[3], last)};
+}
+
+[[nodiscard]] inline TexelRange coarser(TexelRange const& range, int shift) noexcept {
+    return {range.x0 >> shift, range.x1 >> shift, range.y0 >> shift, range.y1 >> shift};
 }
 
 template <class T>
@@ -172,16 +209,28 @@ inline void add_part(IrregularBuffer<T>& buffer, Parts<T> const& parts, int tile
     T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
     T const extent = width > height ? width : height;
     int level = 0;
-    while (level + 1 < buffer.level_count && extent > T(std::int64_t(1) << level)) ++level;
-    for (int i = 0; i < 5; ++i) parts.bounds[5 * index + static_cast<std::uint32_t>(i)] = bounds[i];
-    parts.place[2 * index] = static_cast<std::uint32_t>(tile);
-    parts.place[2 * index + 1] = static_cast<std::uint32_t>(level);
+    while (level + 1 < buffer.level_count && extent > T(1 << level_shift * level)) ++level;
     buffer.levels_used |= 1u << level;
+    TexelRange const finest = texels_of(bounds, buffer.map_size);
+    TexelRange const at = coarser(finest, level_shift * level);
+    // NOTE: a third texel is possible only by rounding of the extent, and then only within the padding of the bounds.
+    std::uint32_t const more_x = at.x1 > at.x0 ? 1u : 0u, more_y = at.y1 > at.y0 ? 1u : 0u;
+    for (std::uint32_t i = 0; i < 5; ++i) parts.bounds[5 * index + i] = bounds[i];
+    std::uint32_t* const place = parts.place + 3 * index;
+    place[0] = static_cast<std::uint32_t>(tile);
+    place[1] = static_cast<std::uint32_t>(at.x0) | static_cast<std::uint32_t>(at.y0) << 16;
+    place[2] = static_cast<std::uint32_t>(level) | more_x << 8 | more_y << 9;
     int const size = level_size(buffer.map_size, level);
-    TexelRange<T> const range = texels_at(bounds, buffer.map_size, level);
-    std::uint32_t* const count = buffer.first + 2 + buffer.texels_before[level];
-    for (int y = range.y0; y <= range.y1; ++y)
-        for (int x = range.x0; x <= range.x1; ++x) ++count[y * size + x];
+    std::uint32_t* const count = buffer.first + 2 + buffer.texels_before[level] + at.y0 * size + at.x0;
+    for (std::uint32_t y = 0; y <= more_y; ++y)
+        for (std::uint32_t x = 0; x <= more_x; ++x) ++count[y * static_cast<std::uint32_t>(size) + x];
+    TexelRange const cells = coarser(finest, cell_shift);
+    for (int y = cells.y0; y <= cells.y1; ++y)
+        for (int x = cells.x0; x <= cells.x1; ++x) {
+            int const cell = y * buffer.cells_across + x;
+            buffer.cell_levels[cell] |= 1u << level;
+            buffer.cell_depth[cell] = bounds[4] > buffer.cell_depth[cell] ? bounds[4] : buffer.cell_depth[cell];
+        }
 }
 
 template <class T>
@@ -196,19 +245,19 @@ inline void sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts, std::u
     }
     for (std::uint32_t i = 0; i < counts.parts; ++i) {
         T const* const bounds = parts.bounds + 5 * i;
-        auto const level = static_cast<int>(parts.place[2 * i + 1]);
-        int const size = level_size(buffer.map_size, level);
-        TexelRange<T> const range = texels_at(bounds, buffer.map_size, level);
-        std::uint32_t* const next = end + buffer.texels_before[level];
-        for (int y = range.y0; y <= range.y1; ++y)
-            for (int x = range.x0; x <= range.x1; ++x) {
+        std::uint32_t const* const place = parts.place + 3 * i;
+        std::uint32_t const level = place[2] & 0xffu;
+        auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, static_cast<int>(level)));
+        std::uint32_t* const next = end + buffer.texels_before[level] + (place[1] >> 16) * size + (place[1] & 0xffffu);
+        for (std::uint32_t y = 0; y <= (place[2] >> 9 & 1u); ++y)
+            for (std::uint32_t x = 0; x <= (place[2] >> 8 & 1u); ++x) {
                 std::uint32_t const node = next[y * size + x]++;
                 buffer.lo_x[node] = bounds[0];
                 buffer.hi_x[node] = bounds[1];
                 buffer.lo_y[node] = bounds[2];
                 buffer.hi_y[node] = bounds[3];
                 buffer.depth[node] = bounds[4];
-                buffer.tile[node] = parts.place[2 * i];
+                buffer.tile[node] = place[0];
             }
     }
 }
@@ -220,6 +269,9 @@ struct TileKernel {
     Receivers<T> const& receivers;
     PixelPlane<T> plane[4];  // the rows of the map
     T w_min;
+    T turn;
+    Lanes column_in_tile, row_in_tile;
+    bool flat, affine;
 
     struct Seen {
         std::uint32_t alive = 0;
@@ -227,69 +279,89 @@ struct TileKernel {
         Lanes lo_x, hi_x, lo_y, hi_y, depth, lo_w, hi_w;
     };
 
-    // Depth and the normal's three components, gathered into lanes. Sky has depth 0.
-    void gather(int column, int row, T (&into)[4][lane_count]) const noexcept {
+    // The normal's three components and the depth, or the place relative to the eye, into lanes.
+    void gather(int column, int row, T (&into)[6][lane_count]) const noexcept {
         PixelFrame<T> const& frame = buffer.frame;
-        for (int k = 0; k < lane_count; ++k) {
-            int const x = column + k % tile_side, y = row + k / tile_side;
-            if (x >= frame.width || y >= buffer.first_row + buffer.row_count) {
-                for (int i = 0; i < 4; ++i) into[i][k] = T(0);
-                continue;
-            }
-            std::size_t const pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
-            T const* const n = receivers.normal + pixel * static_cast<std::size_t>(receivers.normal_stride);
-            for (int i = 0; i < 3; ++i) into[1 + i][k] = n[i];
-            if (receivers.position != nullptr) {
-                T const* const p = receivers.position + pixel * static_cast<std::size_t>(receivers.position_stride);
-                into[0][k] = frame.to_inward.x * (p[0] - frame.eye.x) + frame.to_inward.y * (p[1] - frame.eye.y) +
-                             frame.to_inward.z * (p[2] - frame.eye.z);
-            } else {
-                into[0][k] = receivers.depth[pixel];
+        auto const normal_stride = static_cast<std::size_t>(receivers.normal_stride);
+        auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
+        int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
+        for (int j = 0; j < tile_side; ++j) {
+            std::size_t const pixel = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                                      static_cast<std::size_t>(column);
+            for (int i = 0; i < tile_side; ++i) {
+                std::size_t const at = pixel + static_cast<std::size_t>(i < columns ? i : 0);
+                int const k = j * tile_side + i;
+                T const* const n = receivers.normal + at * normal_stride;
+                into[0][k] = n[0];
+                into[1][k] = n[1];
+                into[2][k] = n[2];
+                if (receivers.position != nullptr) {
+                    T const* const p = receivers.position + at * position_stride;
+                    into[3][k] = p[0] - frame.eye.x;
+                    into[4][k] = p[1] - frame.eye.y;
+                    into[5][k] = p[2] - frame.eye.z;
+                } else {
+                    into[3][k] = receivers.depth[at];
+                }
             }
         }
     }
 
-    [[nodiscard]] Seen see(int tile, int column, int row) const noexcept {
+    [[nodiscard]] static std::uint32_t lanes_inside(int columns, int rows) noexcept {
+        std::uint32_t const in_row = columns < tile_side ? (1u << columns) - 1u : 0xfu;
+        std::uint32_t inside = 0;
+        for (int j = 0; j < tile_side && j < rows; ++j) inside |= in_row << tile_side * j;
+        return inside;
+    }
+
+    void see(int tile, int column, int row, Seen& seen) const noexcept {
         PixelFrame<T> const& frame = buffer.frame;
-        bool const flat = frame.kind == ViewKind::orthographic;
-        T in[4][lane_count], xs[lane_count], ys[lane_count];
-        gather(column, row, in);
-        for (int k = 0; k < lane_count; ++k) {
-            xs[k] = T(column + k % tile_side) - T(frame.width) / T(2);
-            ys[k] = T(row + k / tile_side) - T(frame.height) / T(2);
-        }
         auto const all = [](T value) { return Lanes::all(value); };
+        T in[6][lane_count];
+        gather(column, row, in);
         Lanes const zero = all(T(0)), one = all(T(1)), half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min());
-        Lanes const x = Lanes::load(xs), y = Lanes::load(ys), depth = Lanes::load(in[0]);
-        Lanes const m[3] = {Lanes::load(in[1]), Lanes::load(in[2]), Lanes::load(in[3])};
-        auto const dot = [&](Vec3<T> const& v) { return fused(all(v.x), m[0], fused(all(v.y), m[1], all(v.z) * m[2])); };
-        Lanes const nx = dot(frame.across), ny = dot(frame.upward), nz = dot(frame.inward);
+        Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
+        Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
+        Lanes const m[3] = {Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2])};
+        auto const dot = [&all](Vec3<T> const& v, Lanes const (&a)[3]) {
+            return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
+        };
+        Lanes depth = Lanes::load(in[3]);
+        if (receivers.position != nullptr) {
+            Lanes const p[3] = {depth, Lanes::load(in[4]), Lanes::load(in[5])};
+            depth = dot(frame.to_inward, p);
+        }
+        Lanes const nx = dot(frame.across, m), ny = dot(frame.upward, m), nz = dot(frame.inward, m);
 
         // The quad; see micro_quad, of which these are the lanes.
         Lanes const toward_middle = flat ? nz : fused(nx, x + half, fused(ny, y + half, nz));
         Lanes const facing = flat ? zero - nz : toward_middle;
-        Lanes const steep = (absolute(nx) + absolute(ny)) * all(turn_limit(frame));
+        Lanes const steep = (absolute(nx) + absolute(ny)) * all(turn);
         Lanes const divisor = with_sign_of(most(absolute(facing), steep), facing);
-        Lanes const scale = one / (flat ? divisor : divisor * depth);
-        Lanes const q_x = nx * scale, q_y = ny * scale;
-        Lanes const q = (flat ? depth : divisor * scale) - (q_x + q_y) * half;
-
         // A comparison with NaN is false.
         Lanes const largest_number = all(std::numeric_limits<T>::max());
-        std::uint32_t sound = at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
-        sound &= at_least(absolute(divisor), tiny);
+        std::uint32_t sound = at_least(absolute(divisor), tiny);
         if (!flat) sound &= at_least(depth, tiny);
+        Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
+        Lanes const q_x = nx * scale, q_y = ny * scale;
+        Lanes const q = (flat ? depth : divisor * scale) - (q_x + q_y) * half;
+        sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
+        sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
+        seen.alive = seen.away = 0;
+        if (sound == 0) return;
 
         // Light and eye on the same side?
         Lanes travel = fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
             travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
-        std::uint32_t const lit = at_least(travel, tiny) & at_least(toward_middle, tiny);
-        std::uint32_t const lit_behind = at_least(zero - tiny, travel) & at_least(zero - tiny, toward_middle);
-        Seen seen;
-        seen.away = sound & ~(lit | lit_behind);
+        Lanes const under = zero - tiny;
+        std::uint32_t const lit = (at_least(travel, tiny) & at_least(toward_middle, tiny)) |
+                                  (at_least(under, travel) & at_least(under, toward_middle));
+        seen.away = sound & ~lit;
+        sound &= lit;
+        if (sound == 0) return;
 
-        // The four corners as the light sees them.
+        // The four corners as the light sees them. Before an eye of perspective, values are over the depth.
         Lanes at[4], gain_x[4], gain_y[4];
         for (int i = 0; i < 4; ++i) {
             PixelPlane<T> const& p = plane[i];
@@ -297,59 +369,48 @@ struct TileKernel {
             gain_x[i] = fused(all(p.b), q_x, all(p.x));
             gain_y[i] = fused(all(p.b), q_y, all(p.y));
         }
-        std::uint32_t held = every_sample;
-        Lanes widest = zero;
+        Lanes steepest = zero;
         for (int corner = 0; corner < 4; ++corner) {
-            auto const value = [&](int i) {
-                Lanes const along = (corner & 1) != 0 ? at[i] + gain_x[i] : at[i];
-                return (corner & 2) != 0 ? along + gain_y[i] : along;
-            };
-            Lanes q_here = (corner & 1) != 0 ? q + q_x : q;
-            if ((corner & 2) != 0) q_here = q_here + q_y;
-            Lanes const w = value(3), inverse = one / w;
-            // Before an eye of perspective, values are over the depth, and 1 / q is the depth.
-            Lanes const true_w = flat ? w : w / q_here;
-            held &= at_least(w, tiny) & ~at_least(all(w_min), true_w);
-            Lanes const tx = value(0) * inverse, ty = value(1) * inverse, tz = value(2) * inverse;
-            if (corner == 0) {
-                seen.lo_x = seen.hi_x = tx;
-                seen.lo_y = seen.hi_y = ty;
-                seen.depth = tz;
-                seen.lo_w = seen.hi_w = true_w;
-                widest = inverse;
-                continue;
+            Lanes value[4], q_here = q;
+            for (int i = 0; i < 4; ++i) {
+                value[i] = (corner & 1) != 0 ? at[i] + gain_x[i] : at[i];
+                if ((corner & 2) != 0) value[i] = value[i] + gain_y[i];
             }
-            seen.lo_x = least(seen.lo_x, tx);
-            seen.hi_x = most(seen.hi_x, tx);
-            seen.lo_y = least(seen.lo_y, ty);
-            seen.hi_y = most(seen.hi_y, ty);
-            seen.depth = most(seen.depth, tz);
-            seen.lo_w = least(seen.lo_w, true_w);
-            seen.hi_w = most(seen.hi_w, true_w);
-            widest = most(widest, inverse);
+            if ((corner & 1) != 0) q_here = q_here + q_x;
+            if ((corner & 2) != 0) q_here = q_here + q_y;
+            sound &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
+            Lanes const inverse = reciprocal(chosen(sound, value[3], one));
+            Lanes const tx = value[0] * inverse, ty = value[1] * inverse, tz = value[2] * inverse;
+            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(sound, q_here, one));
+            seen.lo_x = corner == 0 ? tx : least(seen.lo_x, tx);
+            seen.hi_x = corner == 0 ? tx : most(seen.hi_x, tx);
+            seen.lo_y = corner == 0 ? ty : least(seen.lo_y, ty);
+            seen.hi_y = corner == 0 ? ty : most(seen.hi_y, ty);
+            seen.depth = corner == 0 ? tz : most(seen.depth, tz);
+            seen.lo_w = corner == 0 ? w : least(seen.lo_w, w);
+            seen.hi_w = corner == 0 ? w : most(seen.hi_w, w);
+            steepest = most(steepest, inverse);
         }
-        // Rounding, so that no triangle misses a texel; before an eye of perspective everything is over the depth.
-        PixelFrame<T> const& f = frame;
-        T const far_ray = glm::length(f.across) * T(f.width) + glm::length(f.upward) * T(f.height) + glm::length(f.inward);
-        Lanes const reach = flat ? fused(absolute(q), all(T(2)), all(far_ray)) : all(far_ray);
+        // What rounding may add, so that no triangle misses a texel.
+        Lanes const ray = all(buffer.contact_ray);
+        Lanes const reach = flat ? all(buffer.contact_reach) + absolute(q) + absolute(q_x) + absolute(q_y) : ray;
         Lanes const here = flat ? one : absolute(q) + absolute(q_x) + absolute(q_y);
-        Lanes const pad = fused(widest, fused(reach, all(buffer.texel_error), here * all(buffer.texel_error_here)),
-                                all(T(1) / T(128)));
-        Lanes const deeper = widest * fused(reach, all(buffer.depth_error), here * all(buffer.depth_error_here));
+        auto const error = [&](T each_metre, T anywhere) {
+            return steepest * fused(reach, all(each_metre), here * all(anywhere));
+        };
+        Lanes const pad = error(buffer.texel_error, buffer.texel_error_here) + all(T(1) / T(128));
         seen.lo_x = seen.lo_x - pad;
         seen.hi_x = seen.hi_x + pad;
         seen.lo_y = seen.lo_y - pad;
         seen.hi_y = seen.hi_y + pad;
-        seen.depth = seen.depth + deeper;
+        seen.depth = seen.depth + error(buffer.depth_error, buffer.depth_error_here);
         Lanes const span = absolute(seen.lo_x) + absolute(seen.hi_x) + absolute(seen.lo_y) + absolute(seen.hi_y);
-        held &= at_least(largest_number, span + absolute(seen.depth));
-        seen.alive = sound & (lit | lit_behind) & held;
+        seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
-        T* const quads = buffer.quad + 3 * lane_count * tile;
+        T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
         chosen(seen.alive, q, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
-        return seen;
     }
 
     // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
@@ -361,17 +422,18 @@ struct TileKernel {
                              smallest(chosen(part, seen.lo_y, huge)), largest(chosen(part, seen.hi_y, low)),
                              largest(chosen(part, seen.depth, low))};
         if (pixels_across > 1) {
-            Lanes const extent = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
-            T const pixel = largest(chosen(part, extent, low));
             T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
-            T const roomy = pixel * T(2 * pixels_across);
-            if ((width > height ? width : height) > (roomy > T(1) ? roomy : T(1))) {
-                if (pixels_across == tile_side)
-                    for (std::uint32_t const quarter : {0x0033u, 0x00ccu, 0x3300u, 0xcc00u})
-                        insert(parts, tile, seen, part & quarter, 2);
-                else
-                    for (std::uint32_t k = 0; k < lane_count; ++k) insert(parts, tile, seen, part & 1u << k, 1);
-                return;
+            T const extent = width > height ? width : height;
+            if (extent > T(1)) {
+                Lanes const each = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
+                if (extent > largest(chosen(part, each, low)) * T(2 * pixels_across)) {
+                    if (pixels_across == tile_side)
+                        for (std::uint32_t const quarter : {0x0033u, 0x00ccu, 0x3300u, 0xcc00u})
+                            insert(parts, tile, seen, part & quarter, 2);
+                    else
+                        for (; part != 0; part &= part - 1) insert(parts, tile, seen, part & (~part + 1), 1);
+                    return;
+                }
             }
         }
         IrregularBuffer<T>& b = buffer;
@@ -429,10 +491,23 @@ template <class T>
     return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
 }
 
-// The arrays of a buffer, cut from what the caller gave.
+// The arrays of a buffer, cut from what the caller gave. No capacity where not even the tiles fit.
 template <class T>
 [[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage, std::uint32_t texel_count) noexcept {
+    Parts<T> parts;
+    // What one part more adds: one of its own and four nodes of each array.
+    StorageSize const least = storage_for(buffer.rect.width, buffer.rect.height, buffer.map_size, 1);
+    if (storage.scalars == nullptr || storage.words == nullptr || storage.size.scalars < least.scalars ||
+        storage.size.words < least.words)
+        return parts;
+    std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
+    std::size_t const by_words = (storage.size.words - least.words) / 7;
+    std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
+    // Nodes are counted with 32 bits.
+    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 29 ? capacity : 1u << 29);
     auto const tiles = static_cast<std::size_t>(buffer.tile_count);
+    auto const cells = static_cast<std::size_t>(buffer.cells_across) * static_cast<std::size_t>(buffer.cells_across);
+    std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
     T* scalars = storage.scalars;
     std::uint32_t* words = storage.words;
     auto const take = [](auto*& from, std::size_t count) {
@@ -440,99 +515,110 @@ template <class T>
         from += count;
         return taken;
     };
-    Parts<T> parts;
-    std::size_t const fixed_scalars = 48 * tiles + 6 * lane_count, fixed_words = 18 * tiles + lane_count + texel_count + 2;
-    if (scalars == nullptr || words == nullptr || storage.size.scalars < fixed_scalars || storage.size.words < fixed_words)
-        return parts;
-    std::size_t const by_scalars = (storage.size.scalars - fixed_scalars) / 25;
-    std::size_t const by_words = (storage.size.words - fixed_words) / 6;
-    parts.capacity = static_cast<std::uint32_t>(by_scalars < by_words ? by_scalars : by_words);
-    std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
-    buffer.quad = take(scalars, 48 * tiles);
+    buffer.quad = take(scalars, 3 * lane_count * tiles);
     for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
+    buffer.cell_depth = take(scalars, cells);
     parts.bounds = scalars;
-    buffer.mask = take(words, 16 * tiles);
-    buffer.alive = take(words, tiles);
-    buffer.last_caster = take(words, tiles);
+    buffer.mask = take(words, lane_count * tiles);
+    buffer.state = take(words, 2 * tiles);
     buffer.first = take(words, texel_count + 2);
     buffer.tile = take(words, nodes);
+    buffer.cell_levels = take(words, cells);
+    buffer.block_count = take(words, cells + 2);
+    buffer.block_cell = take(words, caster_block);
+    buffer.block_order = take(words, caster_block);
     parts.place = words;
+    std::memset(buffer.first, 0, (texel_count + 2) * sizeof(std::uint32_t));
+    std::memset(buffer.cell_levels, 0, cells * sizeof(std::uint32_t));
+    for (std::size_t cell = 0; cell < cells; ++cell) buffer.cell_depth[cell] = std::numeric_limits<T>::lowest();
     return parts;
 }
 
 }  // namespace detail
 
-// Lists what the light may reach of `row_count` rows of the picture from `first_row` on; both count in fours, but for
-// the end of the picture, and a row_count of 0 stands for all that follow. Pixels that the map does not hold, its
-// w_min included, stay lit; those that face away from the light are dark in all samples.
+// Lists what the light may reach of a part of the picture. Pixels that the map does not hold, for its w_min or behind
+// it, stay lit; the rest of its frame does not matter. Those that face away from the light are dark in all samples.
 //
 // Faults leave everything lit: not_finite, zero_light, those of the view, bad_projection where the matrix is not a map
-// of this light, map_too_small, and storage_too_small, where counts.parts says what capacity would do.
+// of this light, map_too_small for a grid outside [1, 2^14], bad_region, and storage_too_small, where counts.parts says
+// what capacity would do.
 template <class T, class Lanes = BestLanes<T>>
 [[nodiscard]] inline IrregularBuffer<T> list_receivers(PixelFrame<T> const& frame, Receivers<T> const& receivers,
                                                        Light<T> const& light, ShadowMap<T> const& grid, int map_size,
-                                                       Storage<T> const& storage, int first_row = 0,
-                                                       int row_count = 0) noexcept {
+                                                       Storage<T> const& storage, PixelRect rect = {}) noexcept {
     SHADOWMATH_ASSERT(receivers.normal != nullptr && (receivers.position != nullptr || receivers.depth != nullptr),
                       "receivers need a normal, and a position or a depth");
     IrregularBuffer<T> buffer;
     buffer.frame = frame;
     buffer.faults = frame.faults | faults_of(light);
-    buffer.first_row = first_row;
-    buffer.row_count = row_count > 0 ? row_count : frame.height - first_row;
     buffer.map_size = map_size;
-    if (map_size < 1 || map_size > 1 << (most_levels - 1)) buffer.faults |= Fault::map_too_small;
-    if (first_row < 0 || buffer.row_count < 1 || first_row > frame.height - buffer.row_count) buffer.faults |= Fault::bad_region;
-    if (frame.faults.any() || unusable(light) || buffer.faults.has(Fault::map_too_small) || buffer.faults.has(Fault::bad_region)) {
-        buffer.row_count = 0;
-        return buffer;
-    }
+    if (rect.width < 1) rect.width = frame.width - rect.x;
+    if (rect.height < 1) rect.height = frame.height - rect.y;
+    bool const inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+                        rect.x <= frame.width - rect.width && rect.y <= frame.height - rect.height;
+    if (map_size < 1 || map_size > 1 << 14) buffer.faults |= Fault::map_too_small;
+    if (!inside) buffer.faults |= Fault::bad_region;
+    if (inside) buffer.rect = rect;
+    if (frame.faults.any() || unusable(light) || !inside || buffer.faults.has(Fault::map_too_small)) return buffer;
+    bool const flat = frame.kind == ViewKind::orthographic;
     buffer.light = pixel_light(frame, light);
+    buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
+                         glm::length(frame.inward);
     buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));
-    buffer.contact_ray = glm::length(frame.across) * T(frame.width) / T(2) +
-                         glm::length(frame.upward) * T(frame.height) / T(2) + glm::length(frame.inward);
-    if (frame.kind == ViewKind::orthographic) {
-        buffer.contact_reach += buffer.contact_ray;
+    if (flat) {
+        buffer.contact_reach += buffer.contact_ray + glm::length(frame.across) * std::abs(frame.origin.x) +
+                                glm::length(frame.upward) * std::abs(frame.origin.y);
         buffer.contact_ray = T(1);
     }
-    buffer.tiles_across = (frame.width + tile_side - 1) / tile_side;
-    buffer.tile_count = buffer.tiles_across * ((buffer.row_count + tile_side - 1) / tile_side);
     if (!detail::take_map(buffer, grid, light)) {
         buffer.faults |= Fault::bad_projection;
-        buffer.tile_count = 0;
         return buffer;
     }
+    buffer.tiles_across = (rect.width - 1) / tile_side + 1;
+    buffer.tile_count = buffer.tiles_across * ((rect.height - 1) / tile_side + 1);
+    buffer.cells_across = ((map_size - 1) >> cell_shift) + 1;
     std::uint32_t texel_count = 0;
-    for (int side = 2; side > 1 && buffer.level_count < most_levels;) {
+    for (int side = 0; side != 1;) {
         side = level_size(map_size, buffer.level_count);
         buffer.texels_before[buffer.level_count++] = texel_count;
         texel_count += static_cast<std::uint32_t>(side) * static_cast<std::uint32_t>(side);
     }
     detail::Parts<T> const parts = detail::lay_out(buffer, storage, texel_count);
-    if (parts.bounds == nullptr) {
+    if (parts.capacity == 0) {
         buffer.faults |= Fault::storage_too_small;
         buffer.tile_count = 0;
         return buffer;
     }
-    std::memset(buffer.first, 0, (texel_count + 2) * sizeof(std::uint32_t));
     T const largest_number = std::numeric_limits<T>::max();
-    buffer.least_x = buffer.least_y = buffer.least_w = largest_number;
-    buffer.most_x = buffer.most_y = buffer.most_w = buffer.most_depth = -largest_number;
+    buffer.least_x = buffer.least_y = largest_number;
+    buffer.most_x = buffer.most_y = buffer.most_depth = -largest_number;
 
-    detail::TileKernel<Lanes> const kernel{buffer, receivers,
-                                           {detail::plane_of_row(frame, buffer.row[0]), detail::plane_of_row(frame, buffer.row[1]),
-                                            detail::plane_of_row(frame, buffer.row[2]), detail::plane_of_row(frame, buffer.row[3])},
-                                           grid.w_min > T(0) ? grid.w_min : T(0)};
+    T columns[lane_count], rows[lane_count];
+    for (int k = 0; k < lane_count; ++k) {
+        columns[k] = T(k % tile_side);
+        rows[k] = T(k / tile_side);
+    }
+    Vec4<T> const* const row = buffer.row;
+    detail::TileKernel<Lanes> const kernel{
+        buffer,
+        receivers,
+        {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]), detail::plane_of_row(frame, row[2]),
+         detail::plane_of_row(frame, row[3])},
+        grid.w_min > T(0) ? grid.w_min : T(0),
+        detail::turn_limit(frame),
+        Lanes::load(columns),
+        Lanes::load(rows),
+        flat,
+        Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
     Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);
     Lanes least_w = huge, most_w = low;
+    typename detail::TileKernel<Lanes>::Seen seen;
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
-        int const column = tile % buffer.tiles_across * tile_side;
-        int const row = first_row + tile / buffer.tiles_across * tile_side;
-        auto const seen = kernel.see(tile, column, row);
-        for (int k = 0; k < lane_count; ++k)
-            buffer.mask[tile * lane_count + k] = (seen.away >> k & 1u) != 0 ? every_sample : 0u;
-        buffer.alive[tile] = seen.alive;
-        buffer.last_caster[tile] = 0;
+        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side, rect.y + tile / buffer.tiles_across * tile_side, seen);
+        std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
+        for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
+        buffer.state[2 * tile] = seen.alive;
+        buffer.state[2 * tile + 1] = 0;
         if (seen.alive == 0) continue;
         ++buffer.counts.tiles;
         least_w = least(least_w, chosen(seen.alive, seen.lo_w, huge));

@@ -74,6 +74,10 @@ struct PlainLanes {
     friend PlainLanes most(PlainLanes const& a, PlainLanes const& b) noexcept {
         return each([&](int k) { return a.lane[k] > b.lane[k] ? a.lane[k] : b.lane[k]; });
     }
+    // 1 / a to four roundings; anything where a is 0 or not finite.
+    friend PlainLanes reciprocal(PlainLanes const& a) noexcept {
+        return each([&](int k) { return T(1) / a.lane[k]; });
+    }
     friend PlainLanes absolute(PlainLanes const& a) noexcept {
         return each([&](int k) { return std::abs(a.lane[k]); });
     }
@@ -121,6 +125,10 @@ struct Avx512Lanes {
     friend Avx512Lanes operator/(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_div_ps(a.lanes, b.lanes)}; }
     friend Avx512Lanes least(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_min_ps(a.lanes, b.lanes)}; }
     friend Avx512Lanes most(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_max_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes reciprocal(Avx512Lanes a) noexcept {
+        __m512 const rough = _mm512_rcp14_ps(a.lanes);  // 14 bits; a step of Newton's doubles them
+        return {_mm512_mul_ps(rough, _mm512_fnmadd_ps(a.lanes, rough, _mm512_set1_ps(2.0f)))};
+    }
     friend Avx512Lanes absolute(Avx512Lanes a) noexcept { return {_mm512_abs_ps(a.lanes)}; }
     friend Avx512Lanes with_sign_of(Avx512Lanes magnitude, Avx512Lanes sign) noexcept {
         __m512i const top = _mm512_set1_epi32(static_cast<int>(0x80000000u));
@@ -177,6 +185,7 @@ struct Avx2Lanes {
     friend Avx2Lanes most(Avx2Lanes a, Avx2Lanes b) noexcept {
         return {_mm256_max_ps(a.first, b.first), _mm256_max_ps(a.second, b.second)};
     }
+    friend Avx2Lanes reciprocal(Avx2Lanes a) noexcept { return all(1.0f) / a; }
     friend Avx2Lanes absolute(Avx2Lanes a) noexcept {
         __m256 const top = _mm256_set1_ps(-0.0f);
         return {_mm256_andnot_ps(top, a.first), _mm256_andnot_ps(top, a.second)};
@@ -220,6 +229,20 @@ struct Avx2Lanes {
 #endif
 
 namespace detail {
+
+// The same words for a single number, so that a formula can be written once for one and for sixteen.
+template <class T>
+[[nodiscard]] inline T fused(T a, T b, T c) noexcept {
+    return a * b + c;
+}
+template <class T>
+[[nodiscard]] inline T absolute(T a) noexcept {
+    return std::abs(a);
+}
+template <class T>
+[[nodiscard]] inline T with_sign_of(T magnitude, T sign) noexcept {
+    return std::copysign(magnitude, sign);
+}
 
 template <class T>
 struct LanesFor {

@@ -90,10 +90,10 @@ template <class T>
 // spaces are made of it, and the rows of a map's matrix.
 template <class T>
 struct PixelPlane {
-    T x = T(0);
-    T y = T(0);
-    T a = T(0);
-    T b = T(0);
+    T x;
+    T y;
+    T a;
+    T b;
 };
 
 // The plane whose value at a point of the pixel frame is normal . point + offset, over the point's depth where the eye

@@ -4,8 +4,8 @@
 // bias, no filter: a sample is dark when the segment from it to the light meets a triangle.
 //
 //   storage                    arrays of the caller's, storage_for(...) long
-//   list_receivers(...)        once for a picture, or for each strip of it
-//   trace(buffer, casters)     in any order, any number of times; strips can run on threads of their own
+//   list_receivers(...)        once for a picture, or for each part of it
+//   trace(buffer, casters)     in any order, any number of times; parts can run on threads of their own
 //   write_masks(buffer, out)   one word a pixel: bit i is set where sample i is dark
 //
 // Use it where shadows must be right to the pixel; on a CPU it is faster than ray tracing as long as every pixel is
@@ -25,6 +25,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace shadowmath {
@@ -50,13 +51,6 @@ namespace detail {
 template <class T>
 inline constexpr T farthest_vertex = T(1e9);
 
-// What a triangle may cover of the grid: lo x, hi x, lo y, hi y in texels, and its least depth.
-template <class T>
-struct Footing {
-    T bounds[4];
-    T depth;
-};
-
 template <class Lanes, class T = typename Lanes::Scalar>
 struct TraceKernel {
     IrregularBuffer<T>& buffer;
@@ -64,23 +58,33 @@ struct TraceKernel {
     Lanes column_in_tile, row_in_tile;
     T w_floor;
 
+    // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
+    struct Batch {
+        std::uint32_t sound;              // bit k: triangle k may take light from a receiver
+        T vertex[3][3][lane_count];       // relative to the eye
+        T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
+        T depth[lane_count];              // the end nearest to the light
+        T plane[4][4][lane_count];
+        Lanes reach;                      // metres from the eye, at most
+    };
+
     // One triangle against sixteen pixels.
-    void test(std::uint32_t tile, ShadowVolume<T> const& volume) const noexcept {
-        std::uint32_t const alive = buffer.alive[tile];
+    void test(std::uint32_t tile, Batch const& batch, int k) const noexcept {
+        std::uint32_t const alive = buffer.state[2 * tile];
         T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
         Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        T const x = T(tile % tiles_across * tile_side) - T(buffer.frame.width) / T(2);
-        T const y = T(tile / tiles_across * tile_side) + T(buffer.first_row) - T(buffer.frame.height) / T(2);
+        T const x = T(static_cast<int>(tile % tiles_across) * tile_side + buffer.rect.x) - T(buffer.frame.width) / T(2);
+        T const y = T(static_cast<int>(tile / tiles_across) * tile_side + buffer.rect.y) - T(buffer.frame.height) / T(2);
         Lanes const zero = Lanes::all(T(0));
         Lanes c[4], gain_x[4], gain_y[4];
         std::uint32_t touched = alive, covered = alive;
         for (int i = 0; i < 4; ++i) {
-            PixelPlane<T> const& p = i == 0 ? volume.behind : volume.edge[i - 1];
-            Lanes const px = Lanes::all(p.x), py = Lanes::all(p.y), pb = Lanes::all(p.b);
-            c[i] = fused(pb, q, fused(py, row_in_tile, fused(px, column_in_tile, Lanes::all(p.x * x + p.y * y + p.a))));
-            gain_x[i] = fused(pb, q_x, px);
-            gain_y[i] = fused(pb, q_y, py);
+            T const px = batch.plane[i][0][k], py = batch.plane[i][1][k], pa = batch.plane[i][2][k];
+            Lanes const xs = Lanes::all(px), ys = Lanes::all(py), bs = Lanes::all(batch.plane[i][3][k]);
+            c[i] = fused(bs, q, fused(ys, row_in_tile, fused(xs, column_in_tile, Lanes::all(px * x + py * y + pa))));
+            gain_x[i] = fused(bs, q_x, xs);
+            gain_y[i] = fused(bs, q_y, ys);
             // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
             touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
             if (touched == 0) return;
@@ -98,38 +102,47 @@ struct TraceKernel {
                 gain_y[i].store(lines[i][2]);
             }
             for (; crossed != 0; crossed &= crossed - 1) {
-                int const k = lowest_bit(crossed);
+                int const pixel = lowest_bit(crossed);
                 std::uint32_t dark = every_sample;
-                for (int i = 0; i < 4; ++i)
-                    dark &= half_plane_mask<Lanes>(PixelLine<T>{lines[i][0][k], lines[i][1][k], lines[i][2][k]});
-                masks[k] |= dark;
-                if (masks[k] == every_sample) done |= 1u << k;
+                for (auto const& line : lines)
+                    dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][pixel], line[1][pixel], line[2][pixel]});
+                masks[pixel] |= dark;
+                if (masks[pixel] == every_sample) done |= 1u << pixel;
             }
         }
-        if (done != 0) buffer.alive[tile] = alive & ~done;
+        buffer.state[2 * tile] = alive & ~done;
     }
 
-    [[nodiscard]] static int lowest_bit(std::uint32_t bits) noexcept {
-#if defined(__GNUC__)
-        return __builtin_ctz(bits);
-#else
-        int place = 0;
-        while ((bits >> place & 1u) == 0) ++place;
-        return place;
-#endif
+    // The levels that have a node which triangle k may touch; texels of the finest level.
+    [[nodiscard]] std::uint32_t levels_at(TexelRange const& texels, T depth) const noexcept {
+        TexelRange const cells = coarser(texels, cell_shift);
+        if (cells.x1 - cells.x0 > 2 || cells.y1 - cells.y0 > 2) return buffer.levels_used;
+        std::uint32_t levels = 0;
+        for (int y = cells.y0; y <= cells.y1; ++y)
+            for (int x = cells.x0; x <= cells.x1; ++x) {
+                int const cell = y * buffer.cells_across + x;
+                levels |= buffer.cell_depth[cell] >= depth ? buffer.cell_levels[cell] : 0u;
+            }
+        return levels;
+    }
+
+    [[nodiscard]] TexelRange texels_of_triangle(Batch const& batch, int k) const noexcept {
+        T const bounds[4] = {batch.bounds[0][k], batch.bounds[1][k], batch.bounds[2][k], batch.bounds[3][k]};
+        return texels_of(bounds, buffer.map_size);
     }
 
     // One triangle against the lists of the texels that it may cover.
-    void walk(Footing<T> const& footing, ShadowVolume<T> const& volume, std::uint32_t stamp) const noexcept {
-        Lanes const lo_x = Lanes::all(footing.bounds[0]), hi_x = Lanes::all(footing.bounds[1]);
-        Lanes const lo_y = Lanes::all(footing.bounds[2]), hi_y = Lanes::all(footing.bounds[3]);
-        Lanes const depth = Lanes::all(footing.depth);
-        for (std::uint32_t levels = buffer.levels_used; levels != 0; levels &= levels - 1) {
+    void walk(Batch const& batch, int k, std::uint32_t stamp) const noexcept {
+        Lanes const lo_x = Lanes::all(batch.bounds[0][k]), hi_x = Lanes::all(batch.bounds[1][k]);
+        Lanes const lo_y = Lanes::all(batch.bounds[2][k]), hi_y = Lanes::all(batch.bounds[3][k]);
+        Lanes const depth = Lanes::all(batch.depth[k]);
+        TexelRange const finest = texels_of_triangle(batch, k);
+        for (std::uint32_t levels = levels_at(finest, batch.depth[k]); levels != 0; levels &= levels - 1) {
             int const level = lowest_bit(levels);
             auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, level));
-            TexelRange<T> const range = texels_at(footing.bounds, buffer.map_size, level);
-            for (int y = range.y0; y <= range.y1; ++y) {
-                std::uint32_t const* const first = buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(y) * size;
+            TexelRange const range = coarser(finest, level_shift * level);
+            std::uint32_t const* first = buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(range.y0) * size;
+            for (int y = range.y0; y <= range.y1; ++y, first += size) {
                 std::uint32_t const end = first[range.x1 + 1];
                 for (std::uint32_t node = first[range.x0]; node < end; node += lane_count) {
                     std::uint32_t hit = at_least(hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), lo_x) &
@@ -139,27 +152,29 @@ struct TraceKernel {
                     for (; hit != 0; hit &= hit - 1) {
                         std::uint32_t const at = node + static_cast<std::uint32_t>(lowest_bit(hit));
                         std::uint32_t const tile = buffer.tile[at];
-                        if (buffer.last_caster[tile] == stamp) continue;
-                        buffer.last_caster[tile] = stamp;
-                        if (buffer.alive[tile] == 0)
+                        std::uint32_t* const state = buffer.state + 2 * tile;
+                        if (state[1] == stamp) continue;
+                        state[1] = stamp;
+                        if (state[0] == 0)
                             buffer.depth[at] = std::numeric_limits<T>::lowest();  // full: off the list
                         else
-                            test(tile, volume);
+                            test(tile, batch, k);
                     }
                 }
             }
         }
     }
 
-    // The bounds of the part of a triangle at w >= w_floor: outside it no receiver is.
-    [[nodiscard]] bool clip(T const (&at)[3][4], Footing<T>& footing) const noexcept {
+    // The bounds of the part of a triangle at w >= w_floor: no receiver is in the shadow of the rest.
+    [[nodiscard]] bool clip(T const (&at)[3][4], T (&bounds)[4]) const noexcept {
         T const largest_number = std::numeric_limits<T>::max();
-        footing = {{largest_number, -largest_number, largest_number, -largest_number}, -largest_number};
-        auto const add = [&footing](T x, T y) {
-            footing.bounds[0] = x < footing.bounds[0] ? x : footing.bounds[0];
-            footing.bounds[1] = x > footing.bounds[1] ? x : footing.bounds[1];
-            footing.bounds[2] = y < footing.bounds[2] ? y : footing.bounds[2];
-            footing.bounds[3] = y > footing.bounds[3] ? y : footing.bounds[3];
+        bounds[0] = bounds[2] = largest_number;
+        bounds[1] = bounds[3] = -largest_number;
+        auto const add = [&bounds](T x, T y) {
+            bounds[0] = x < bounds[0] ? x : bounds[0];
+            bounds[1] = x > bounds[1] ? x : bounds[1];
+            bounds[2] = y < bounds[2] ? y : bounds[2];
+            bounds[3] = y > bounds[3] ? y : bounds[3];
         };
         bool any = false;
         for (int i = 0; i < 3; ++i) {
@@ -176,46 +191,50 @@ struct TraceKernel {
         return any;
     }
 
-    // Sixteen triangles, `begin` and after.
-    void run(std::uint32_t begin, std::uint32_t end) const noexcept {
-        T v[3][3][lane_count];
+    // `order` gives the triangles, or they follow each other from `begin` on.
+    void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
         Vec3<T> const& eye = buffer.frame.eye;
-        std::uint32_t sound = 0;
+        batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
-            bool ok = begin + k < end;
+            bool ok = k < count;
+            std::size_t const triangle = !ok ? 0 : order != nullptr ? order[begin + k] : begin + k;
             for (std::uint32_t i = 0; i < 3; ++i) {
-                std::uint32_t const corner = 3 * (begin + k) + i;
-                std::uint32_t const vertex = !ok ? 0 : casters.index != nullptr ? casters.index[corner] : corner;
+                std::size_t vertex = 3 * triangle + i;
+                if (casters.index != nullptr) vertex = casters.index[vertex];
                 ok = ok && vertex < casters.vertex_count;
-                T const* const p = casters.position + (ok ? static_cast<std::size_t>(vertex) * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) v[i][axis][k] = p[axis] - eye[axis];
+                T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
+                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis] - eye[axis];
             }
-            sound |= (ok ? 1u : 0u) << k;
+            batch.sound |= (ok ? 1u : 0u) << k;
         }
+        find(batch);
+    }
+
+    // Bounds in the grid, and which of the sixteen reach a receiver's.
+    void find(Batch& batch) const noexcept {
         auto const all = [](T value) { return Lanes::all(value); };
-        Lanes const largest_number = all(std::numeric_limits<T>::max());
-        Lanes corner[3][3], at[3][4];
-        Lanes reach = all(T(0)), least_w = largest_number, most_w = all(std::numeric_limits<T>::lowest());
+        Lanes const largest_number = all(std::numeric_limits<T>::max()), lowest_number = all(std::numeric_limits<T>::lowest());
+        Lanes at[3][4];
+        Lanes least_w = largest_number, most_w = lowest_number;
+        std::uint32_t sound = batch.sound;
+        batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
-            for (int axis = 0; axis < 3; ++axis) corner[i][axis] = Lanes::load(v[i][axis]);
-            Lanes const far = absolute(corner[i][0]) + absolute(corner[i][1]) + absolute(corner[i][2]);
-            sound &= at_least(all(farthest_vertex<T>), far);
-            reach = most(reach, far);
+            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]), z = Lanes::load(batch.vertex[i][2]);
+            Lanes const away = absolute(x) + absolute(y) + absolute(z);
+            sound &= at_least(all(farthest_vertex<T>), away);
+            batch.reach = most(batch.reach, away);
             for (int r = 0; r < 4; ++r) {
                 Vec4<T> const& row = buffer.row[r];
-                at[i][r] = fused(all(row.x), corner[i][0], fused(all(row.y), corner[i][1], fused(all(row.z), corner[i][2], all(row.w))));
+                at[i][r] = fused(all(row.x), x, fused(all(row.y), y, fused(all(row.z), z, all(row.w))));
             }
             least_w = least(least_w, at[i][3]);
             most_w = most(most_w, at[i][3]);
         }
         Lanes const floor = all(w_floor);
-        std::uint32_t const in_front = at_least(least_w, floor);
         sound &= at_least(most_w, floor);
-        if (sound == 0) return;
-
-        Lanes lo_x = largest_number, hi_x = all(std::numeric_limits<T>::lowest()), lo_y = lo_x, hi_y = hi_x, depth = lo_x;
+        Lanes lo_x = largest_number, hi_x = lowest_number, lo_y = lo_x, hi_y = hi_x, depth = lo_x;
         for (int i = 0; i < 3; ++i) {
-            Lanes const inverse = all(T(1)) / most(at[i][3], floor);
+            Lanes const inverse = reciprocal(most(at[i][3], floor));
             Lanes const x = at[i][0] * inverse, y = at[i][1] * inverse;
             lo_x = least(lo_x, x);
             hi_x = most(hi_x, x);
@@ -223,52 +242,102 @@ struct TraceKernel {
             hi_y = most(hi_y, y);
             depth = least(depth, at[i][2] * inverse);
         }
-        Lanes const widest = all(T(1)) / most(least_w, floor);
-        Lanes const pad = fused(widest, fused(reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
-        depth = depth - widest * fused(reach, all(buffer.depth_error), all(buffer.depth_error_here));
-
-        Footing<T> footings[lane_count];
-        T bounds[5][lane_count], pads[lane_count];
-        std::uint32_t crossing = sound & ~in_front;
+        std::uint32_t crossing = sound & ~at_least(least_w, floor);
         if (crossing != 0) {
-            // A few triangles in a warped map, and those beside a lamp.
-            T rows[3][4][lane_count];
+            // A few triangles in a warped map, and those beside a lamp. Their depths would have to be clipped as well.
+            T rows[3][4][lane_count], clipped[4][lane_count];
             for (int i = 0; i < 3; ++i)
                 for (int r = 0; r < 4; ++r) at[i][r].store(rows[i][r]);
-            for (std::uint32_t bits = crossing; bits != 0; bits &= bits - 1) {
-                int const k = lowest_bit(bits);
-                T one[3][4];
+            depth = chosen(crossing, lowest_number, depth);
+            lo_x.store(clipped[0]);
+            hi_x.store(clipped[1]);
+            lo_y.store(clipped[2]);
+            hi_y.store(clipped[3]);
+            for (; crossing != 0; crossing &= crossing - 1) {
+                int const k = lowest_bit(crossing);
+                T one[3][4], bounds[4];
                 for (int i = 0; i < 3; ++i)
                     for (int r = 0; r < 4; ++r) one[i][r] = rows[i][r][k];
-                if (!clip(one, footings[k])) sound &= ~(1u << k);
+                if (!clip(one, bounds)) sound &= ~(1u << k);
+                for (int i = 0; i < 4; ++i) clipped[i][k] = bounds[i];
             }
-            crossing &= sound;
+            lo_x = Lanes::load(clipped[0]);
+            hi_x = Lanes::load(clipped[1]);
+            lo_y = Lanes::load(clipped[2]);
+            hi_y = Lanes::load(clipped[3]);
         }
-        lo_x.store(bounds[0]);
-        hi_x.store(bounds[1]);
-        lo_y.store(bounds[2]);
-        hi_y.store(bounds[3]);
-        depth.store(bounds[4]);
-        pad.store(pads);
-        for (std::uint32_t bits = sound; bits != 0; bits &= bits - 1) {
-            int const k = lowest_bit(bits);
-            Footing<T>& footing = footings[k];
-            if ((crossing >> k & 1u) == 0) footing = {{bounds[0][k], bounds[1][k], bounds[2][k], bounds[3][k]}, bounds[4][k]};
-            for (int i = 0; i < 4; ++i) footing.bounds[i] += i % 2 == 0 ? -pads[k] : pads[k];
-            bool const apart = footing.bounds[0] > buffer.most_x || footing.bounds[1] < buffer.least_x ||
-                               footing.bounds[2] > buffer.most_y || footing.bounds[3] < buffer.least_y ||
-                               footing.depth > buffer.most_depth;
-            if (apart) continue;
-            Vec3<T> p[3];
-            T far = T(0);
-            for (int i = 0; i < 3; ++i) {
-                Vec3<T> const relative(v[i][0][k], v[i][1][k], v[i][2][k]);
-                p[i] = direction_in_pixels(buffer.frame, relative) - Vec3<T>(buffer.frame.origin, T(0));
-                far = glm::max(far, std::abs(relative.x) + std::abs(relative.y) + std::abs(relative.z));
+        // What rounding may add, so that no texel is missed.
+        Lanes const steepest = reciprocal(most(least_w, floor));
+        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
+        lo_x = lo_x - pad;
+        hi_x = hi_x + pad;
+        lo_y = lo_y - pad;
+        hi_y = hi_y + pad;
+        depth = depth - steepest * fused(batch.reach, all(buffer.depth_error), all(buffer.depth_error_here));
+        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) & at_least(all(buffer.most_y), lo_y) &
+                 at_least(hi_y, all(buffer.least_y)) & at_least(all(buffer.most_depth), depth);
+        lo_x.store(batch.bounds[0]);
+        hi_x.store(batch.bounds[1]);
+        lo_y.store(batch.bounds[2]);
+        hi_y.store(batch.bounds[3]);
+        depth.store(batch.depth);
+        batch.sound = sound;
+    }
+
+    void raise_volumes(Batch& batch) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        PixelFrame<T> const& frame = buffer.frame;
+        Triple<Lanes> p[3];
+        for (int i = 0; i < 3; ++i) {
+            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]), Lanes::load(batch.vertex[i][2])};
+            auto const along = [&](Vec3<T> const& axis) { return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v); };
+            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
+        }
+        Lanes const metres = all(contact_share<T>) * (batch.reach + all(T(1) + buffer.contact_reach));
+        ShadowVolume<Lanes> const volume =
+            volume_of(frame, buffer.light, p, metres, contact_share<T> * buffer.contact_ray, all);
+        for (int i = 0; i < 4; ++i) {
+            volume.planes[i].x.store(batch.plane[i][0]);
+            volume.planes[i].y.store(batch.plane[i][1]);
+            volume.planes[i].a.store(batch.plane[i][2]);
+            volume.planes[i].b.store(batch.plane[i][3]);
+        }
+        batch.sound &= at_least(absolute(volume.along), all(std::numeric_limits<T>::min()));
+    }
+
+    // At most caster_block triangles, in the order of the cells that they lie in: what is next to each other in the
+    // grid is then in the caches, however the mesh was laid out.
+    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch) const noexcept {
+        auto const cells = static_cast<std::uint32_t>(buffer.cells_across * buffer.cells_across);
+        std::uint32_t const nowhere_to_be = cells;
+        std::uint32_t* const start = buffer.block_count;
+        std::memset(start, 0, (cells + 2) * sizeof(std::uint32_t));
+        for (std::uint32_t i = 0; i < count; i += lane_count) {
+            load(begin + i, count - i, nullptr, batch);
+            for (std::uint32_t k = 0; k < lane_count && i + k < count; ++k) {
+                std::uint32_t cell = nowhere_to_be;
+                if ((batch.sound >> k & 1u) != 0) {
+                    TexelRange const texels = texels_of_triangle(batch, static_cast<int>(k));
+                    TexelRange const at = coarser(texels, cell_shift);
+                    if (levels_at(texels, batch.depth[k]) != 0) {
+                        cell = static_cast<std::uint32_t>(at.y0 * buffer.cells_across + at.x0);
+                        ++start[cell + 1];
+                    }
+                }
+                buffer.block_cell[i + k] = cell;
             }
-            ContactMargin<T> const margin{contact_share<T> * (T(1) + far + buffer.contact_reach), contact_share<T> * buffer.contact_ray};
-            ShadowVolume<T> const volume = shadow_volume(buffer.frame, buffer.light, p[0], p[1], p[2], margin);
-            if (volume.casts) walk(footing, volume, begin + static_cast<std::uint32_t>(k) + 1u);
+        }
+        for (std::uint32_t cell = 0; cell < cells; ++cell) start[cell + 1] += start[cell];
+        std::uint32_t const kept = start[cells];
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (buffer.block_cell[i] != nowhere_to_be) buffer.block_order[start[buffer.block_cell[i]]++] = begin + i;
+        for (std::uint32_t i = 0; i < kept; i += lane_count) {
+            load(i, kept - i, buffer.block_order, batch);
+            raise_volumes(batch);
+            for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
+                int const k = lowest_bit(bits);
+                walk(batch, k, buffer.block_order[i + static_cast<std::uint32_t>(k)] + 1u);
+            }
         }
     }
 };
@@ -284,7 +353,7 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     if (buffer.levels_used == 0 || first >= casters.triangle_count || casters.vertex_count == 0) return;
     SHADOWMATH_ASSERT(casters.position != nullptr, "casters need positions");
     std::uint32_t const left = casters.triangle_count - first;
-    std::uint32_t const end = first + (count > 0 && count < left ? count : left);
+    if (count == 0 || count > left) count = left;
     T column[lane_count], row[lane_count];
     for (int k = 0; k < lane_count; ++k) {
         column[k] = T(k % tile_side);
@@ -294,20 +363,33 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
     T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
     detail::TraceKernel<Lanes> const kernel{buffer, casters, Lanes::load(column), Lanes::load(row), w_floor};
-    for (std::uint32_t begin = first; begin < end; begin += lane_count) kernel.run(begin, end);
+    typename detail::TraceKernel<Lanes>::Batch batch;
+    for (std::uint32_t done = 0; done < count;) {
+        std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
+        kernel.run_block(first + done, block, batch);
+        done += block;
+    }
 }
 
-// One word for each pixel of the buffer's rows, from the first of them on: 0 for sky.
+// One word for each pixel of the buffer's part of the picture, row by row, `stride` words apart: 0 for sky. A stride of
+// 0 is the width of that part.
 template <class T>
-inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks) noexcept {
-    for (int row = 0; row < buffer.row_count; ++row)
-        for (int column = 0; column < buffer.frame.width; ++column) {
-            int const tile = row / tile_side * buffer.tiles_across + column / tile_side;
-            int const lane = row % tile_side * tile_side + column % tile_side;
-            bool const listed = tile < buffer.tile_count;
-            masks[static_cast<std::size_t>(row) * static_cast<std::size_t>(buffer.frame.width) + static_cast<std::size_t>(column)] =
-                listed ? buffer.mask[static_cast<std::size_t>(tile) * lane_count + static_cast<std::size_t>(lane)] : 0u;
+inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, int stride = 0) noexcept {
+    PixelRect const& rect = buffer.rect;
+    if (stride == 0) stride = rect.width;
+    for (int row = 0; row < rect.height; ++row) {
+        std::uint32_t* const out = masks + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride);
+        if (buffer.tile_count == 0) {
+            std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
+            continue;
         }
+        std::uint32_t const* in = buffer.mask + static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
+                                  row % tile_side * tile_side;
+        for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
+            int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
+            std::memcpy(out + column, in, static_cast<std::size_t>(columns) * sizeof(std::uint32_t));
+        }
+    }
 }
 
 }  // namespace v0
