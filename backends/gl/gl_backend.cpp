@@ -6,6 +6,7 @@
 #include "backends/gl/objects.hpp"
 #include "backends/index_ranges.hpp"
 #include "backends/pass_check.hpp"
+#include "backends/shaders/embedded.hpp"
 
 #include <chrono>
 #include <cstddef>

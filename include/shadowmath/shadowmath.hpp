@@ -60,3 +60,6 @@
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>
+
+// And what it reads.
+#include <shadowmath/gpu.hpp>

@@ -68,14 +68,15 @@ int every_function() noexcept {
     count += keep(&add_map<T>, &caster_masks<T>);
     count += map_range(0).first;
     count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
-    count += keep(&tap_weight<T>);
+    count += keep(&covered_texels<T>, &tap_weight<T>);
     count += keep(&is_positive_infinity<T>, &safe_normalize<T>);
     count += keep(&box_around<T>, &fit_box<T>);
     count += keep(&focus_of<T>, &fit_focus<T>, &rolled<T>, &fit_rectangle<T>);
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
                   &spot_clip_from_world<T>, &fit_spot<T>);
     count += keep(&bounding_sphere<T>);
-    count += keep(&texels_per_pixel<T>, &footprint<T>);
+    count += keep(&area<T>, &texels_per_pixel<T>, &footprint<T>);
+    count += keep(&gpu_shadow_map<T>, &gpu_map<T>, &gpu_cascades<T>);
     count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,
                   &in_light<T>);
     count += keep(&texel_metres<T>, &rebased<T>);
@@ -91,7 +92,7 @@ int every_function() noexcept {
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);
-    count += keep(&projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
+    count += keep(&transformed<T>, &projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
     count += keep(&texel_grid<T>, &on_grid<T>);
     count += keep(&plane_through<T>, &mean_height_plane<T>, &plane_projection<T>, &view_dependent_map<T>,
                   &receiver_valid<T>);
