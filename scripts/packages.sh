@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash disable=SC2034
 #
-# Sourced by scripts/demo and scripts/test: what each needs of Debian, once, and how it gets there.
+# Sourced by scripts/demo, scripts/test and scripts/bench: what each needs of Debian, once, and how it gets there.
 
 demo_packages=(
     g++ cmake ninja-build
@@ -30,6 +30,8 @@ all_packages=(
     g++-mingw-w64-x86-64-posix libx11-dev                        # the real windows.h and Xlib.h
     gcovr                                                        # which lines and branches the tests reach
 )
+
+bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev nlohmann-json3-dev)
 
 # Installs what is missing of the packages given, or prints the line that does and fails.
 install_packages() {
