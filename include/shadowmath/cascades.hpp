@@ -9,8 +9,10 @@
 //   tight       light-space box: up to twice the texels, and shadow edges crawl under motion
 //   rectangle   the smallest rectangle at any angle: a quarter fewer metres than tight
 //   focus       the smallest around what can be seen in shadow: receivers in view that casters are above
+//   warped      a perspective warp of each slice (warp.hpp): texels small near the eye within every map
 //
-// Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own,
+// Use `stable` unless the camera never moves or a temporal filter hides the crawl; or for the nearest maps alone, where
+// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step is a header of its own,
 // so a renderer that needs another order calls them itself.
 //
 // Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
@@ -34,6 +36,7 @@
 #include <shadowmath/splits.hpp>
 #include <shadowmath/texel_grid.hpp>
 #include <shadowmath/view_volume.hpp>
+#include <shadowmath/warp.hpp>
 
 #include <array>
 #include <cstdint>
@@ -41,13 +44,15 @@
 namespace shadowmath {
 inline namespace v0 {
 
-enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus };
+enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus, warped };
 
 template <class T>
 struct CascadeOptions {
     int count = 4;        // maps, 1 to max_splits
     int map_size = 2048;  // texels along one side of each
     CascadeFit fit = CascadeFit::stable;
+    int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
+    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none
     T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
     T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
     T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
@@ -61,8 +66,8 @@ template <class T>
 struct Cascade {
     ShadowMap<T> map;
     SliceRange<T> range;    // metres of eye depth that it serves
-    T texel_metres = T(0);  // across the light; 0 of a spot, whose texels grow with distance
-    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of a spot
+    T texel_metres = T(0);  // across the light; 0 of a spot or a warped map, whose texels grow with distance
+    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of those
 };
 
 template <class T>
@@ -127,25 +132,30 @@ inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasi
 
 // `previous_x`: of the map's x axis in the last frame.
 template <class T>
-inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Light<T> const& light,
-                            Vec3<T> const& previous_x, Aabb<T> const& casters, Aabb<T> const& receivers,
-                            T margin_texels, CascadeOptions<T> const& options) noexcept {
+inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVolume<T> const& part,
+                            Light<T> const& light, Vec3<T> const& previous_x, Aabb<T> const& casters,
+                            Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    if (cascade_fit == CascadeFit::warped) {
+        WarpOptions<T> const warp{options.map_size, margin_texels, options.warp_strength};
+        cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
+        return;
+    }
     LightBasis<T> const basis = light_basis(light.direction);
     std::array<Vec3<T>, 8> const body = corners(part);
     LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
     DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
-    if (options.fit == CascadeFit::stable) {
+    if (cascade_fit == CascadeFit::stable) {
         fit_stable(cascade, part, basis, depth, casters, receivers, margin_texels, options);
         return;
     }
-    if (options.fit == CascadeFit::focus) {
+    if (cascade_fit == CascadeFit::focus) {
         Focus<T> const focus = focus_of(part, light, casters, receivers);
         if (!focus.visible) return;
         sides = fit_rectangle(basis, focus.receivers, options.map_size, margin_texels, previous_x);
         depth = focus.depth;
         if (options.pancake) depth.lo = focus.first_receiver;
     } else {
-        if (options.fit == CascadeFit::rectangle)
+        if (cascade_fit == CascadeFit::rectangle)
             sides = fit_rectangle(basis, convex_body(body), options.map_size, margin_texels, previous_x);
         depth = depth_range(sides, depth, casters, receivers, options.pancake);
     }
@@ -208,7 +218,8 @@ template <class T>
         if (light.kind == LightKind::directional) {
             bool const has_previous = previous != nullptr && i < previous->count && previous->at[i].map.visible;
             Vec3<T> const x = has_previous ? Vec3<T>(row(previous->at[i].map.clip_from_world, 0)) : Vec3<T>(T(0));
-            detail::fit_directional(cascade, part, light, x, casters, receivers, margin_texels, options);
+            CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
+            detail::fit_directional(cascade, cascade_fit, part, light, x, casters, receivers, margin_texels, options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }

@@ -51,6 +51,10 @@
 // The one call.
 #include <shadowmath/cascades.hpp>
 
+// Which options.
+#include <shadowmath/choose.hpp>
+#include <shadowmath/judge.hpp>
+
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>

@@ -54,6 +54,7 @@ int every_function() noexcept {
     count += keep(&slope<T>, &lean<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
                   &normal_offset_metres<T>, &bias_for<T>, &bias_at<T>);
     count += keep(&bounds_of<T>);
+    count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
     count += keep(&row<T>, &from_rows<T>, &nowhere<T>);

@@ -73,7 +73,9 @@ TYPED_TEST(CascadesProperty, EveryMapObeysTheLaw) {
         using T = TypeParam;
         ViewVolume<T> const view = drawn_view<T>(T(100));
         Light<T> const light = *sun<T>();
-        CascadeOptions<T> const options = drawn_options<T>();
+        CascadeOptions<T> options = drawn_options<T>();
+        options.fit = static_cast<CascadeFit>(*below(5));
+        options.steady_maps = static_cast<int>(*below(3));
         Aabb<T> const casters = *box<T>(T(100));
         Aabb<T> const receivers = *box<T>(T(100));
         auto const cascades = fit_cascades(view, light, casters, receivers, options);
@@ -168,6 +170,8 @@ TYPED_TEST(CascadesProperty, NoInputMakesANaNAnAllocationOrATrap) {
         Aabb<T> const casters = *nasty_box<T>();
         Aabb<T> const receivers = *nasty_box<T>();
         CascadeOptions<T> options = drawn_options<T>();
+        options.fit = static_cast<CascadeFit>(*below(5));
+        options.warp_strength = *nasty<T>();
         options.lambda = *nasty<T>();
         options.blend = *nasty<T>();
         options.shadow_distance = *nasty<T>();

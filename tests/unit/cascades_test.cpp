@@ -84,6 +84,29 @@ TYPED_TEST(CascadesOf, RectanglesKeepTheAngleOfTheLastFrame) {
     }
 }
 
+TYPED_TEST(CascadesOf, TheNearestMapsStayStableBeforeAnyOtherFit) {
+    auto const stable = this->fitted();
+    this->options.fit = CascadeFit::rectangle;
+    this->options.steady_maps = 2;
+    auto const mixed = this->fitted();
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(mixed.at[i].map.clip_from_world == stable.at[i].map.clip_from_world, i < 2) << i;
+}
+
+TYPED_TEST(CascadesOf, WarpedSlicesAreWarpedMaps) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::warped;
+    auto const cascades = this->fitted();
+    for (auto const& c : cascades) {
+        EXPECT_TRUE(c.map.visible);
+        EXPECT_GT(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
+        EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+        EXPECT_EQ(c.texel_metres, T(0));
+    }
+    this->options.warp_strength = T(0);
+    for (auto const& c : this->fitted()) EXPECT_EQ(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
+}
+
 TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {
     this->options.fit = CascadeFit::focus;
     auto const whole = this->fitted();
