@@ -116,9 +116,12 @@ template <class T>
 
 template <class T>
 inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
-                       DepthRange<T> const& slice_depth, Aabb<T> const& casters, Aabb<T> const& receivers,
-                       T margin_texels, CascadeOptions<T> const& options) noexcept {
-    TexelGrid<T> const grid = texel_grid(basis, bounding_sphere(part), options.map_size, margin_texels);
+                       DepthRange<T> const& slice_depth, T previous_texel, Aabb<T> const& casters,
+                       Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    Sphere<T> const sphere = bounding_sphere(part);
+    TexelGrid<T> grid = texel_grid(basis, sphere, options.map_size, margin_texels);
+    T const held = held_size(grid.texel_metres, previous_texel);
+    if (grid.visible && held != grid.texel_metres) grid = grid_window(basis, sphere.center, held, options.map_size);
     cascade.map.faults |= grid.faults;
     if (!grid.visible) return;
     LightBox<T> const sides = on_grid(grid, slice_depth.lo, slice_depth.hi);
@@ -130,10 +133,10 @@ inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasi
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
-// `previous_x`: of the map's x axis in the last frame.
+// `previous`: the same map in the last frame, or one that is not visible.
 template <class T>
 inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVolume<T> const& part,
-                            Light<T> const& light, Vec3<T> const& previous_x, Aabb<T> const& casters,
+                            Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
                             Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
     if (cascade_fit == CascadeFit::warped) {
         WarpOptions<T> const warp{options.map_size, margin_texels, options.warp_strength};
@@ -145,9 +148,10 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVol
     LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
     DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
     if (cascade_fit == CascadeFit::stable) {
-        fit_stable(cascade, part, basis, depth, casters, receivers, margin_texels, options);
+        fit_stable(cascade, part, basis, depth, previous.texel_metres, casters, receivers, margin_texels, options);
         return;
     }
+    Vec3<T> const previous_x = previous.map.visible ? Vec3<T>(row(previous.map.clip_from_world, 0)) : Vec3<T>(T(0));
     if (cascade_fit == CascadeFit::focus) {
         Focus<T> const focus = focus_of(part, light, casters, receivers);
         if (!focus.visible) return;
@@ -176,7 +180,8 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVol
 // map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
 // does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
 // `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
-// null: the last frame's, whose angles rectangles keep while they are nearly as good.
+// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that is
+// not a quarter too much: so a slow zoom does not set all shadows crawling.
 template <class T>
 [[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
                                               Aabb<T> const& receivers, CascadeOptions<T> const& options,
@@ -216,10 +221,10 @@ template <class T>
         ViewVolume<T> const part = slice(seen, cascade.range);
         if (is_empty(casters) || is_empty(receivers)) continue;
         if (light.kind == LightKind::directional) {
-            bool const has_previous = previous != nullptr && i < previous->count && previous->at[i].map.visible;
-            Vec3<T> const x = has_previous ? Vec3<T>(row(previous->at[i].map.clip_from_world, 0)) : Vec3<T>(T(0));
+            Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
             CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
-            detail::fit_directional(cascade, cascade_fit, part, light, x, casters, receivers, margin_texels, options);
+            detail::fit_directional(cascade, cascade_fit, part, light, last, casters, receivers, margin_texels,
+                                    options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }

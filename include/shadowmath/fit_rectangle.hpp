@@ -68,8 +68,8 @@ template <class T>
     auto const bounds_along = [&](T c, T s) {
         Aabb<T> turned;
         for (unsigned i = 0; i < count; ++i)
-            turned = merge(turned, Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x,
-                                           vertex[i].z));
+            turned = merge(turned,
+                           Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x, vertex[i].z));
         return turned;
     };
     auto const area_along = [&](Vec2<T> const& x) {

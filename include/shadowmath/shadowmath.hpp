@@ -39,7 +39,10 @@
 #include <shadowmath/warp.hpp>
 
 // Stillness; translate and scale.
+#include <shadowmath/clipmap.hpp>
 #include <shadowmath/region.hpp>
+#include <shadowmath/schedule.hpp>
+#include <shadowmath/scroll.hpp>
 #include <shadowmath/texel_grid.hpp>
 
 // What a matrix is worth, and needs.

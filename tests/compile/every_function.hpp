@@ -56,6 +56,7 @@ int every_function() noexcept {
     count += keep(&bounds_of<T>);
     count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
+    count += keep(&clipmap<T>, &pixel_metres<T>, &page_at<T>, &holds<T>, &page_for<T>);
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
     count += keep(&row<T>, &from_rows<T>, &nowhere<T>);
     count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
@@ -81,7 +82,9 @@ int every_function() noexcept {
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);
     count += keep(&projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
-    count += keep(&texel_grid<T>, &on_grid<T>);
+    count += keep(&texel_grid<T>, &on_grid<T>, &grid_window<T>, &texel_for<T>, &held_size<T>);
+    count += keep(&scroll_between<T>, &unchanged<T>) + frames_between(1, 4) + (maps_due(3, 4) != 0);
+    count += wrapped(std::int64_t(-1), 8) + wrapped(TexelGrid<T>{}, TexelRect{}).count;
     count += keep(&plane_through<T>, &mean_height_plane<T>, &plane_projection<T>, &view_dependent_map<T>,
                   &receiver_valid<T>);
     count += keep(&pose_looking<T>, &perspective_view<T>, &orthographic_view<T>, &view_from_projection<T>,

@@ -124,8 +124,8 @@ TYPED_TEST(CascadesProperty, EachFitCoversNoMoreGroundThanTheOneBeforeIt) {
                 if (!cascades.at[i].map.visible) continue;
                 long double const covered = laws::square_metres(cascades.at[i].map);
                 // Clipped bodies carry sixteen roundings a vertex, and thin ones are widened to a texel of their length.
-                T const lost = tolerance(glm::length(view.pose.position) + view.z_far, 64) *
-                               T(options.map_size) / cascades.at[i].texel_metres / T(options.map_size);
+                T const lost = tolerance(glm::length(view.pose.position) + view.z_far, 64) * T(options.map_size) /
+                               cascades.at[i].texel_metres / T(options.map_size);
                 long double const slack =
                     cascade_fit == CascadeFit::focus ? 1 + 1e-3L + static_cast<long double>(lost) : 1 + 1e-5L;
                 RC_ASSERT(covered <= before[static_cast<std::size_t>(i)] * slack);

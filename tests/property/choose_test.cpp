@@ -41,8 +41,7 @@ TYPED_TEST(ChooseProperty, BeatsOptionsDrawnAtRandom) {
         other.map_size = map_size_within(limits.texels, other.count, limits.largest_map);
         if (limits.motion == Motion::any) other.fit = static_cast<CascadeFit>(*below(5));
         auto const cascades = fit_cascades(view, light, world, world, other);
-        auto const judged =
-            judge(cascades, other.map_size, view, limits.eye_pixels, samples.at.data(), samples.count);
+        auto const judged = judge(cascades, other.map_size, view, limits.eye_pixels, samples.at.data(), samples.count);
         RC_ASSERT(laws::adds_up(judged));
         bool const by_worst = limits.goal == Goal::least_worst;
         T const mine = by_worst ? choice.judgement.all.worst : choice.judgement.all.mean;

@@ -52,7 +52,8 @@ TEST(Choose, IsNoWorseThanAnyOptionsThatOneMightTry) {
                 options.map_size = map_size_within(limits.texels, count, limits.largest_map);
                 options.lambda = lambda;
                 if (motion == Motion::any) options.fit = static_cast<CascadeFit>(count);
-                EXPECT_LE(choice.judgement.all.worst * 0.97, chosen.worst_of(options, limits)) << count << ' ' << lambda;
+                EXPECT_LE(choice.judgement.all.worst * 0.97, chosen.worst_of(options, limits))
+                    << count << ' ' << lambda;
             }
     }
 }
@@ -143,7 +144,8 @@ TEST(Choose, LeavesTheOptionsAloneWhereNothingIsSeen) {
     ChoiceLimits<double> odd;
     odd.most_maps = -1;
     odd.texels = 0;
-    EXPECT_TRUE(choose<double>(street_view(), morning, town, town, nullptr, 0, given, odd).faults.has(Fault::clamped_option));
+    EXPECT_TRUE(
+        choose<double>(street_view(), morning, town, town, nullptr, 0, given, odd).faults.has(Fault::clamped_option));
 }
 
 TEST(MapSizeWithin, IsTheLargestMultipleOfFourThatFits) {

@@ -20,7 +20,8 @@ Light<double> const overhead = directional(V3(0, -1, 0));
 
 // Narrow enough for the error along the view to exceed the one across it.
 ViewVolume<double> narrow_view(double z_near, double z_far) {
-    ViewVolume<double> view = perspective_view(pose_looking(V3(3, 2, 1), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.0, z_near, z_far);
+    ViewVolume<double> view =
+        perspective_view(pose_looking(V3(3, 2, 1), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.0, z_near, z_far);
     view.right = view.top = 0.2;
     view.left = view.bottom = -0.2;
     return view;
