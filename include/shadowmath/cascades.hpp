@@ -12,8 +12,8 @@
 //   warped      a perspective warp of each slice (warp.hpp): texels small near the eye within every map
 //
 // Use `stable` unless the camera never moves or a temporal filter hides the crawl; or for the nearest maps alone, where
-// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step is a header of its own,
-// so a renderer that needs another order calls them itself.
+// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step
+// is a header of its own, so a renderer that needs another order calls them itself.
 //
 // Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
 // inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable
@@ -180,8 +180,8 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVol
 // map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
 // does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
 // `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
-// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that is
-// not a quarter too much: so a slow zoom does not set all shadows crawling.
+// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that
+// is not a quarter too much: so a slow zoom does not set all shadows crawling.
 template <class T>
 [[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
                                               Aabb<T> const& receivers, CascadeOptions<T> const& options,

@@ -61,8 +61,8 @@ struct Page {
 
 // Windows around `center`, which is no more than half a page off the middle of each. The same corner to the bit as long
 // as the centre stays within the same half page. A map_size that is no multiple of the page is lowered to one
-// (clamped_option). precision_lost: the finest levels are too fine to be still in this scalar type at this distance from
-// the origin; where not even their places can be counted, there is no level.
+// (clamped_option). precision_lost: the finest levels are too fine to be still in this scalar type at this distance
+// from the origin; where not even their places can be counted, there is no level.
 template <class T>
 [[nodiscard]] inline Clipmap<T> clipmap(LightBasis<T> const& basis, Vec3<T> const& center,
                                         ClipmapOptions<T> const& options) noexcept {

@@ -123,7 +123,8 @@ TYPED_TEST(CascadesProperty, EachFitCoversNoMoreGroundThanTheOneBeforeIt) {
             for (int i = 0; i < cascades.count; ++i) {
                 if (!cascades.at[i].map.visible) continue;
                 long double const covered = laws::square_metres(cascades.at[i].map);
-                // Clipped bodies carry sixteen roundings a vertex, and thin ones are widened to a texel of their length.
+                // Clipped bodies carry sixteen roundings a vertex, and thin ones are widened to a texel of their
+                // length.
                 T const lost = tolerance(glm::length(view.pose.position) + view.z_far, 64) * T(options.map_size) /
                                cascades.at[i].texel_metres / T(options.map_size);
                 long double const slack =

@@ -86,7 +86,8 @@ TEST(FitRectangle, RestsAsTheCameraTurns) {
     EXPECT_GT(rests, 3 * turns);
 }
 
-// Published ratios: an unaligned box needs 1.3 to 1.4 times the area of the least rectangle (mean over light directions).
+// Published ratios: an unaligned box needs 1.3 to 1.4 times the area of the least rectangle (mean over light
+// directions).
 TEST(FitRectangle, NeedsAQuarterLessThanTheBoxInTheMean) {
     std::mt19937 random(7);
     auto const unit = [&] { return double(random()) / 4294967296.0 * 2.0 - 1.0; };
