@@ -25,6 +25,7 @@
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
+#include <shadowmath/fit_cube.hpp>
 #include <shadowmath/fit_focus.hpp>
 #include <shadowmath/fit_rectangle.hpp>
 #include <shadowmath/fit_sphere.hpp>

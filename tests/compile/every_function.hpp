@@ -66,6 +66,7 @@ int every_function() noexcept {
     count += keep(&focus_of<T>, &fit_focus<T>, &rolled<T>, &fit_rectangle<T>);
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
                   &spot_clip_from_world<T>, &fit_spot<T>);
+    count += keep(&face_light<T>, &face_toward<T>, &fit_cube<T>);
     count += keep(&bounding_sphere<T>);
     count += keep(&texels_per_pixel<T>, &footprint<T>);
     count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,
