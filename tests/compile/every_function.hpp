@@ -90,7 +90,7 @@ int every_function() noexcept {
                   &receiver_valid<T>);
     count += keep(&pose_looking<T>, &perspective_view<T>, &orthographic_view<T>, &view_from_projection<T>,
                   &orthonormalized<T>, &point_at<T>, &eye_depth<T>);
-    count += keep(&printed_simple_warp<T>, &corrected_simple_warp<T>, &optimal_inverse_centre<T>, &perspective_warp<T>,
+    count += keep(&printed_simple_warp<T>, &corrected_simple_warp<T>, &optimal_inverse_centre<T>, &perspective_warp<T>, &lloyd_inverse_centre<T>, &lloyd_eta<T>, &trapezoid_inverse_centre<T>, &extended_inverse_centre<T>,
                   &warp_axes<T>, &simple_perspective_map<T>);
     return count;
 }
