@@ -14,10 +14,12 @@
 #include <shadowmath/finite.hpp>
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/light.hpp>
+#include <shadowmath/sampling.hpp>
 #include <shadowmath/view_volume.hpp>
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -125,7 +127,8 @@ template <class T>
             Cascade<T> const& cascade = cascades.at[c];
             if (!(depth <= cascade.range.end)) continue;
             T major = footprint_limit<T>;
-            if (cascade.map.visible) {
+            // Half a texel for the rounding of points on the map's very side.
+            if (contains(cascade.map, map_size, T(-0.5), sample.point)) {
                 Footprint<T> const measured =
                     footprint(eye, eye_pixels, cascade.map.clip_from_world, T(map_size), sample.point, sample.normal);
                 major = measured.major;
@@ -140,6 +143,27 @@ template <class T>
     close(judgement.all);
     for (Worth<T>& worth : judgement.map) close(worth);
     return judgement;
+}
+
+// Of one map over all the points, whatever their depth.
+template <class T>
+[[nodiscard]] inline Worth<T> worth_of(ShadowMap<T> const& map, int map_size, ViewVolume<T> const& view,
+                                       Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
+                                       int sample_count) noexcept {
+    Cascades<T> alone;
+    alone.count = 1;
+    alone.at[0].map = map;
+    alone.at[0].range.end = std::numeric_limits<T>::max();
+    return judge(alone, map_size, view, eye_pixels, samples, sample_count).all;
+}
+
+// Whether a map drawn for an earlier view will do for this one: no point has lost its map, and the worst texel is at
+// most `factor` times as large as when the map was drawn, or at most `factor` pixels. As long as light and casters are
+// what they were its shadows are right in any case; this is about their edges alone.
+template <class T>
+[[nodiscard]] inline bool still_good(Worth<T> const& drawn, Worth<T> const& now, T factor = T(1.5)) noexcept {
+    T const before = drawn.worst > T(1) ? drawn.worst : T(1);
+    return now.unserved <= drawn.unserved && now.worst <= before * factor;
 }
 
 }  // namespace v0

@@ -36,6 +36,7 @@
 
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
+#include <shadowmath/plane_choice.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
