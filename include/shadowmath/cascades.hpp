@@ -22,6 +22,7 @@
 
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/config.hpp>
+#include <shadowmath/culling.hpp>
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
@@ -231,6 +232,14 @@ template <class T>
         cascades.faults |= cascade.map.faults;
     }
     return cascades;
+}
+
+// For caster_mask: bit i is cascade i.
+template <class T>
+[[nodiscard]] inline CasterMaps<T> caster_maps(Cascades<T> const& cascades) noexcept {
+    CasterMaps<T> maps;
+    for (Cascade<T> const& cascade : cascades) add_map(maps, cascade.map);
+    return maps;
 }
 
 }  // namespace v0

@@ -103,7 +103,7 @@ template <class T>
     if (!focus.visible || !detail::has_unit_axes(basis)) return {};
     Aabb<T> body;
     for_each_vertex(focus.receivers, [&](Vec3<T> const& v) { body = merge(body, in_light(basis, v)); });
-    LightBox<T> box = detail::box_around(basis, body, map_size, margin_texels);
+    LightBox<T> box = box_around(basis, body, map_size, margin_texels);
     box.depth_lo = focus.depth.lo;
     box.depth_hi = focus.depth.hi;
     return box;

@@ -48,9 +48,8 @@ template <class T>
     T const spread = std::sqrt((glm::dot(off, off) + T(2) * glm::dot(mixed, mixed)) / T(6));
     if (!(spread > T(0))) return Vec3<T>(T(0));
     Vec3<T> const d = off / spread, m = mixed / spread;
-    T const half_det = (d.x * (d.y * d.z - m.y * m.y) - m.x * (m.x * d.z - m.y * m.z) +
-                        m.z * (m.x * m.y - d.y * m.z)) /
-                       T(2);
+    T const half_det =
+        (d.x * (d.y * d.z - m.y * m.y) - m.x * (m.x * d.z - m.y * m.z) + m.z * (m.x * m.y - d.y * m.z)) / T(2);
     constexpr T third_of_a_turn = T(2.09439510239319549230842892218633526L);
     T const root = T(2) * std::cos(std::acos(glm::clamp(half_det, T(-1), T(1))) / T(3) + third_of_a_turn);
     // The rows of what is left over are all across the eigenvector.
@@ -131,8 +130,7 @@ template <class T>
     T sum = T(0);
     int count = 0, served = 0;
     for (int i = 0; i < sample_count; ++i) {
-        Footprint<T> const f =
-            footprint(eye, Vec2<T>(T(1000)), map, T(1000), samples[i].point, samples[i].normal);
+        Footprint<T> const f = footprint(eye, Vec2<T>(T(1000)), map, T(1000), samples[i].point, samples[i].normal);
         if (!(f.major > T(0))) continue;
         T const along = std::log(f.major), across = std::log(std::fmax(f.minor, T(1) / footprint_limit<T>));
         sum += along * along + across * across;

@@ -19,6 +19,7 @@
 
 // Where along the view.
 #include <shadowmath/slice.hpp>
+#include <shadowmath/slices.hpp>
 #include <shadowmath/splits.hpp>
 
 // How to look from the light.
@@ -37,6 +38,7 @@
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
 #include <shadowmath/plane_choice.hpp>
+#include <shadowmath/points.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
@@ -50,6 +52,7 @@
 // What a matrix is worth, and needs.
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/bias.hpp>
+#include <shadowmath/culling.hpp>
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/tangent.hpp>
 
@@ -60,6 +63,20 @@
 #include <shadowmath/choose.hpp>
 #include <shadowmath/judge.hpp>
 
+// The same for what is seen, pixel by pixel.
+#include <shadowmath/sample_bounds.hpp>
+#include <shadowmath/sample_depths.hpp>
+#include <shadowmath/sdsm.hpp>
+
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
+#include <shadowmath/hfts.hpp>
+#include <shadowmath/moments.hpp>
+#include <shadowmath/msm.hpp>
+#include <shadowmath/pcss.hpp>
+#include <shadowmath/penumbra.hpp>
 #include <shadowmath/sampling.hpp>
+#include <shadowmath/vsm.hpp>
+
+// And what it reads.
+#include <shadowmath/gpu.hpp>

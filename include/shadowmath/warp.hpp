@@ -177,8 +177,8 @@ struct WarpOptions {
     T strength = T(1);       // [0, 2]: 0 the uniform map, 1 the least aliasing along the view, 2 Stamminger's;
                              // of the other rules a factor of 1 / a
     WarpRule rule = WarpRule::by_strength;
-    T focus_metres = T(20);      // trapezoid: eye depth up to which 80 % of the map go
-    T coefficient = T(0.05);     // extended: what w grows by, for a metre across a light at a right angle
+    T focus_metres = T(20);   // trapezoid: eye depth up to which 80 % of the map go
+    T coefficient = T(0.05);  // extended: what w grows by, for a metre across a light at a right angle
 };
 
 namespace detail {
@@ -220,8 +220,8 @@ template <class T>
     map.clip = clip;
     Door<T> const in = door(slice, light, casters, receivers, options.map_size, options.margin_texels);
     map.faults = in.faults;
-    bool const finite = all_finite(&options.strength, 1) && all_finite(&options.focus_metres, 1) &&
-                        all_finite(&options.coefficient, 1);
+    bool const finite =
+        all_finite(&options.strength, 1) && all_finite(&options.focus_metres, 1) && all_finite(&options.coefficient, 1);
     if (!finite) map.faults |= Fault::not_finite;
     if (in.stop || !finite) return map;
     T const strength = glm::clamp(options.strength, T(0), T(2));

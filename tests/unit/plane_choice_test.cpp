@@ -72,7 +72,8 @@ TEST(MedianPlane, HasHalfOfThePointsOnEitherSideWhateverTheOutliers) {
 
 TEST(PlaneDistortion, IsNothingOnThePlaneItself) {
     Points const points = points_on(V3(0, 0.5, -20), up);
-    EXPECT_NEAR(plane_distortion({up, -0.5}, view_over_ground(), slanting, points.data(), count_of(points)), 0.0, 1e-12);
+    EXPECT_NEAR(plane_distortion({up, -0.5}, view_over_ground(), slanting, points.data(), count_of(points)), 0.0,
+                1e-12);
     EXPECT_GT(plane_distortion({up, 1.0}, view_over_ground(), slanting, points.data(), count_of(points)), 1e-3);
     double const most = std::numeric_limits<double>::max();
     EXPECT_EQ(plane_distortion({V3(0.0), 0.0}, view_over_ground(), slanting, points.data(), count_of(points)), most);
@@ -134,7 +135,8 @@ TEST(ChoosePlane, HasNothingToChooseWithoutPointsOrLight) {
     Points const points = points_on(V3(0, 0, -20), up);
     EXPECT_FALSE(choose_plane(view_over_ground(), directional(V3(0.0)), points.data(), count_of(points), up).visible);
     // The light lies in the only plane there is.
-    EXPECT_FALSE(choose_plane(view_over_ground(), directional(V3(1, 0, 0)), points.data(), count_of(points), up).visible);
+    EXPECT_FALSE(
+        choose_plane(view_over_ground(), directional(V3(1, 0, 0)), points.data(), count_of(points), up).visible);
 }
 
 TEST(ChoosePlane, NeitherAllocatesNorRaisesAFlag) {
@@ -163,7 +165,8 @@ TEST(StillGood, TurnsFalseAsTheCameraComesDown) {
         ViewVolume<double> moved = view;
         moved.pose.position.y -= 0.25 * step;
         bool const is_good = still_good(drawn, worth(moved), 1.5);
-        EXPECT_TRUE(was_good || !is_good) << step << " " << worth(moved).worst << " of " << drawn.worst << " unserved " << worth(moved).unserved;
+        EXPECT_TRUE(was_good || !is_good)
+            << step << " " << worth(moved).worst << " of " << drawn.worst << " unserved " << worth(moved).unserved;
         was_good = is_good;
         good += is_good;
     }

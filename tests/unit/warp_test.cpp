@@ -156,7 +156,8 @@ TEST(TrapezoidCentre, PutsTheFocusAtEightyPercent) {
 TEST(ExtendedCentre, IsGusevsGrowthMeasuredFromTheNearEnd) {
     // w = 1 + g y and w' = 1 + (y - y_near) / a differ by a factor.
     double const y_near = 3.0, g = 0.05 / 0.5, inverse = extended_inverse_centre(0.05, 0.5, y_near);
-    for (double const y : {3.0, 10.0, 200.0}) EXPECT_NEAR((1 + g * y) / (1 + g * y_near), 1 + (y - y_near) * inverse, 1e-12);
+    for (double const y : {3.0, 10.0, 200.0})
+        EXPECT_NEAR((1 + g * y) / (1 + g * y_near), 1 + (y - y_near) * inverse, 1e-12);
     // Behind the eye, where w would pass through 0 at y = -10.
     double const kept = extended_inverse_centre(0.05, 0.5, -50.0);
     EXPECT_NEAR(1 / kept, 50.0 * 0.15 / 0.85, 1e-9);
@@ -200,7 +201,8 @@ TEST(SimplePerspectiveMap, IsWimmersMapUpToTheFit) {
 TEST(SimplePerspectiveMap, AtStrengthTwoHasTexelsAsWideAsPixels) {
     WarpOptions<double> options;
     options.strength = 2.0;
-    ShadowMap<double> const map = simple_perspective_map(level_view(), overhead, flat_world, flat_world, options, gl_clip);
+    ShadowMap<double> const map =
+        simple_perspective_map(level_view(), overhead, flat_world, flat_world, options, gl_clip);
     // w is eye depth, in units of the nearest.
     double const unit = row(map.clip_from_world, 3) == V4(0.0) ? 0.0 : (map.clip_from_world * V4(0, 0, -10, 1)).w / 10;
     for (V3 const& p : {V3(0, 0, -4), V3(5, 0, -40), V3(-50, 0, -190)})
@@ -229,7 +231,8 @@ TEST(SimplePerspectiveMap, IsStammingersWhicheverSideTheLightIsOn) {
 
 TEST(SimplePerspectiveMap, IsTheSameByAnyRuleThatComesToTheSameCentre) {
     WarpOptions<double> options;
-    ShadowMap<double> const best = simple_perspective_map(level_view(), overhead, flat_world, flat_world, options, gl_clip);
+    ShadowMap<double> const best =
+        simple_perspective_map(level_view(), overhead, flat_world, flat_world, options, gl_clip);
     double const n = first_ground(level_view()), length = 200.0 - n, a = closed_form::best_centre(n, 200.0);
     WarpOptions<double> trapezoid = options, extended = options;
     trapezoid.rule = WarpRule::trapezoid;
@@ -237,7 +240,8 @@ TEST(SimplePerspectiveMap, IsTheSameByAnyRuleThatComesToTheSameCentre) {
     extended.rule = WarpRule::extended;
     extended.coefficient = 1 / (a - n);
     for (WarpOptions<double> const& other : {trapezoid, extended}) {
-        ShadowMap<double> const map = simple_perspective_map(level_view(), overhead, flat_world, flat_world, other, gl_clip);
+        ShadowMap<double> const map =
+            simple_perspective_map(level_view(), overhead, flat_world, flat_world, other, gl_clip);
         for (V3 const& p : {V3(0, 0, -4), V3(5, 0, -40), V3(-50, 0, -190)})
             EXPECT_LT(laws::moved_texels(best, map, p, 1024), 1e-6);
     }
