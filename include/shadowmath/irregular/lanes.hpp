@@ -103,6 +103,16 @@ struct PlainLanes {
         for (int k = 1; k < lane_count; ++k) found = a.lane[k] > found ? a.lane[k] : found;
         return found;
     }
+    // Writes those of the sixteen words from `from` on whose bit is set, without gaps; the words behind them, up to
+    // sixteen in all, may be anything. Gives how many.
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        std::uint32_t count = 0;
+        for (std::uint32_t k = 0; k < lane_count; ++k) {
+            to[count] = from[k];
+            count += bits >> k & 1u;
+        }
+        return count;
+    }
     // Lanes of a where the bit is set, else those of b.
     friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {
         return each([&](int k) { return (bits >> k & 1u) != 0 ? a.lane[k] : b.lane[k]; });
@@ -144,6 +154,11 @@ struct Avx512Lanes {
     }
     friend float smallest(Avx512Lanes a) noexcept { return _mm512_reduce_min_ps(a.lanes); }
     friend float largest(Avx512Lanes a) noexcept { return _mm512_reduce_max_ps(a.lanes); }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        __m512i const packed = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(from));
+        _mm512_storeu_si512(to, packed);
+        return static_cast<std::uint32_t>(_mm_popcnt_u32(bits));
+    }
     friend Avx512Lanes chosen(std::uint32_t bits, Avx512Lanes a, Avx512Lanes b) noexcept {
         return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.lanes, a.lanes)};
     }
@@ -214,6 +229,9 @@ struct Avx2Lanes {
         __m128 const four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
         __m128 const two = _mm_max_ps(four, _mm_movehl_ps(four, four));
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)));
+    }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        return PlainLanes<float>::compress(bits, from, to);
     }
     friend Avx2Lanes chosen(std::uint32_t bits, Avx2Lanes a, Avx2Lanes b) noexcept {
         __m256i const lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
