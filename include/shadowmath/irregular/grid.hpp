@@ -88,6 +88,7 @@ template <class T>
 struct IrregularBuffer {
     PixelFrame<T> frame;
     PixelLight<T> light;
+    Light<Wider<T>> source;
     PixelRect rect;
     Vec4<T> row[4];             // texel x, texel y, depth and w of a point, from its place relative to the eye
     T texel_error = T(0);       // what rounding may add to a texel coordinate times w, for each metre from the eye
@@ -104,7 +105,8 @@ struct IrregularBuffer {
     std::uint32_t levels_used = 0;             // bit l: level l has a node
 
     // Tiles: sixteen pixels each, four rows of four.
-    T* quad = nullptr;               // q, q_x, q_y: three times sixteen
+    T* quad = nullptr;               // q less the tile's, q_x, q_y: three times sixteen
+    T* tile_q = nullptr;             // near the q of its pixels: what differs from it is known to far more digits
     std::uint32_t* mask = nullptr;   // sixteen
     std::uint32_t* state = nullptr;  // bit k: light may reach pixel k, and a sample of it is not yet covered; and one
                                      // more than the index of the triangle that was tested last
@@ -159,7 +161,7 @@ inline constexpr int caster_block = 1 << 15;
     }
     // Behind each array of nodes sixteen more can be read. Every four nodes that touch a texel pay for a division.
     std::size_t const nodes = 4 * parts + lane_count;
-    return {3 * lane_count * tiles + 5 * nodes + 5 * parts + texels,
+    return {(3 * lane_count + 1) * tiles + 5 * nodes + 5 * parts + texels,
             (lane_count + 2) * tiles + nodes + 3 * parts + (2 * texels + coarser + parts + 2) + 4 * texels + 2 +
                 2 * caster_block};
 }
@@ -371,6 +373,13 @@ struct TileKernel {
         }
     }
 
+    [[nodiscard]] static T middle_of(std::uint32_t part, Lanes const& q) noexcept {
+        if (part == 0) return T(0);
+        T lane[lane_count];
+        q.store(lane);
+        return lane[lowest_bit(part)];
+    }
+
     [[nodiscard]] static std::uint32_t lanes_inside(int columns, int rows) noexcept {
         std::uint32_t const in_row = columns < tile_side ? (1u << columns) - 1u : 0xfu;
         std::uint32_t inside = 0;
@@ -408,7 +417,8 @@ struct TileKernel {
         if (!flat) sound &= at_least(depth, tiny);
         Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
         Lanes const q_x = nx * scale, q_y = ny * scale;
-        Lanes const q = (flat ? depth : divisor * scale) - (q_x + q_y) * half;
+        Lanes const middle = flat ? depth : divisor * scale, to_corner = (q_x + q_y) * half;
+        Lanes const q = middle - to_corner;
         sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
         sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
         seen.alive = seen.away = 0;
@@ -472,7 +482,10 @@ struct TileKernel {
         seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
         T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        chosen(seen.alive, q, zero).store(quads);
+        // With the rounding of the division put right, where operations are fused.
+        T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
+        Lanes const exact = flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
+        chosen(seen.alive, exact - to_corner, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
@@ -580,6 +593,7 @@ template <class T>
         return taken;
     };
     buffer.quad = take(scalars, 3 * lane_count * tiles);
+    buffer.tile_q = take(scalars, tiles);
     for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
     buffer.texel_depth = take(scalars, texels);
     parts.bounds = scalars;
@@ -626,6 +640,9 @@ template <class T, class Lanes = BestLanes<T>>
     if (frame.faults.any() || unusable(light) || !inside || buffer.faults.has(Fault::map_too_small)) return buffer;
     bool const flat = frame.kind == ViewKind::orthographic;
     buffer.light = pixel_light(frame, light);
+    buffer.source.kind = light.kind;
+    buffer.source.direction = Vec3<Wider<T>>(light.direction);
+    buffer.source.position = Vec3<Wider<T>>(light.position);
     buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
                          glm::length(frame.inward);
     buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));

@@ -55,16 +55,21 @@ template <class Lanes, class T = typename Lanes::Scalar>
 struct TraceKernel {
     IrregularBuffer<T>& buffer;
     Casters<T> const& casters;
+    PixelFrame<Wider<T>> frame;
+    PixelLight<Wider<T>> light;
     Lanes column_in_tile, row_in_tile;
     T w_floor;
+
+    using Wide = typename Lanes::Wide;
+    using Real = Wider<T>;
 
     // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
     struct Batch {
         std::uint32_t sound;              // bit k: triangle k may take light from a receiver
-        T vertex[3][3][lane_count];       // relative to the eye
+        T vertex[3][3][lane_count];       // world
         T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
         T depth[lane_count];              // the end nearest to the light
-        T plane[4][4][lane_count];
+        Real plane[4][4][lane_count];     // x, y, a, b of the four half spaces
         Lanes reach;                      // metres from the eye, at most
     };
 
@@ -89,22 +94,32 @@ struct TraceKernel {
         queue.count = 0;
         Lanes const zero = Lanes::all(T(0));
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        T const left = T(buffer.rect.x) - T(buffer.frame.width) / T(2), bottom = T(buffer.rect.y) - T(buffer.frame.height) / T(2);
+        Real const left = Real(buffer.rect.x) - Real(frame.width) / Real(2);
+        Real const bottom = Real(buffer.rect.y) - Real(frame.height) / Real(2);
+        Real const* const p = &batch.plane[0][0][k];
+        Lanes xs[4], ys[4], bs[4];
+        for (int i = 0; i < 4; ++i) {
+            xs[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i]));
+            ys[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i + lane_count]));
+            bs[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i + 3 * lane_count]));
+        }
         for (std::uint32_t n = 0; n < kept; ++n) {
             std::uint32_t const tile = queue.tile[n];
             T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
             Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
-            T const x = T(static_cast<int>(tile % tiles_across * tile_side)) + left;
-            T const y = T(static_cast<int>(tile / tiles_across * tile_side)) + bottom;
+            Real const x = Real(static_cast<int>(tile % tiles_across * tile_side)) + left;
+            Real const y = Real(static_cast<int>(tile / tiles_across * tile_side)) + bottom;
+            auto const tile_q = Real(buffer.tile_q[tile]);
             Lanes c[4], gain_x[4], gain_y[4];
             std::uint32_t const alive = buffer.state[2 * tile];
             std::uint32_t touched = alive;
             for (int i = 0; i < 4; ++i) {
-                T const px = batch.plane[i][0][k], py = batch.plane[i][1][k], pa = batch.plane[i][2][k];
-                Lanes const xs = Lanes::all(px), ys = Lanes::all(py), bs = Lanes::all(batch.plane[i][3][k]);
-                c[i] = fused(bs, q, fused(ys, row_in_tile, fused(xs, column_in_tile, Lanes::all(px * x + py * y + pa))));
-                gain_x[i] = fused(bs, q_x, xs);
-                gain_y[i] = fused(bs, q_y, ys);
+                // Here large terms cancel; what is left is no more than a tile's worth.
+                Real const* const plane = p + 4 * lane_count * i;
+                Real const here = plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
+                c[i] = fused(bs[i], q, fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
+                gain_x[i] = fused(bs[i], q_x, xs[i]);
+                gain_y[i] = fused(bs[i], q_y, ys[i]);
                 // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
                 touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
             }
@@ -237,7 +252,6 @@ struct TraceKernel {
 
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
-        Vec3<T> const& eye = buffer.frame.eye;
         batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
@@ -247,7 +261,7 @@ struct TraceKernel {
                 if (casters.index != nullptr) vertex = casters.index[vertex];
                 ok = ok && vertex < casters.vertex_count;
                 T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis] - eye[axis];
+                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis];
             }
             batch.sound |= (ok ? 1u : 0u) << k;
         }
@@ -263,7 +277,9 @@ struct TraceKernel {
         std::uint32_t sound = batch.sound;
         batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
-            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]), z = Lanes::load(batch.vertex[i][2]);
+            Vec3<T> const& eye = buffer.frame.eye;
+            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x), y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
+                        z = Lanes::load(batch.vertex[i][2]) - all(eye.z);
             Lanes const away = absolute(x) + absolute(y) + absolute(z);
             sound &= at_least(all(farthest_vertex<T>), away);
             batch.reach = most(batch.reach, away);
@@ -329,24 +345,26 @@ struct TraceKernel {
     }
 
     void raise_volumes(Batch& batch) const noexcept {
-        auto const all = [](T value) { return Lanes::all(value); };
-        PixelFrame<T> const& frame = buffer.frame;
-        Triple<Lanes> p[3];
+        auto const all = [](Real value) { return Wide::all(value); };
+        Triple<Wide> p[3];
         for (int i = 0; i < 3; ++i) {
-            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]), Lanes::load(batch.vertex[i][2])};
-            auto const along = [&](Vec3<T> const& axis) { return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v); };
+            auto const from_eye = [&](int axis) { return Wide::load(batch.vertex[i][axis]) - all(frame.eye[axis]); };
+            Triple<Wide> const v{from_eye(0), from_eye(1), from_eye(2)};
+            auto const along = [&](Vec3<Real> const& axis) { return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v); };
             p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
         }
-        Lanes const metres = all(contact_share<T>) * (batch.reach + all(T(1) + buffer.contact_reach));
-        ShadowVolume<Lanes> const volume =
-            volume_of(frame, buffer.light, p, metres, contact_share<T> * buffer.contact_ray, all);
+        T reach[lane_count];
+        batch.reach.store(reach);
+        Real const share = contact_share<Real>;
+        Wide const metres = all(share) * (Wide::load(reach) + all(Real(1) + Real(buffer.contact_reach)));
+        ShadowVolume<Wide> const volume = volume_of(frame, light, p, metres, share * Real(buffer.contact_ray), all);
         for (int i = 0; i < 4; ++i) {
             volume.planes[i].x.store(batch.plane[i][0]);
             volume.planes[i].y.store(batch.plane[i][1]);
             volume.planes[i].a.store(batch.plane[i][2]);
             volume.planes[i].b.store(batch.plane[i][3]);
         }
-        batch.sound &= at_least(absolute(volume.along), all(std::numeric_limits<T>::min()));
+        batch.sound &= at_least(absolute(volume.along), all(Real(std::numeric_limits<T>::min())));
     }
 
     // At most caster_block triangles, in the order of the texels that they begin in: what is next to each other in the
@@ -404,7 +422,8 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     // All along a ray of a sun w is that of the receiver; toward a lamp it falls to 0.
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
     T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
-    detail::TraceKernel<Lanes> const kernel{buffer, casters, Lanes::load(column), Lanes::load(row), w_floor};
+    PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
+    detail::TraceKernel<Lanes> const kernel{buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
     typename detail::TraceKernel<Lanes>::Batch batch;
     typename detail::TraceKernel<Lanes>::Queue queue;
     for (std::uint32_t done = 0; done < count;) {
