@@ -196,7 +196,9 @@ struct InverseW {
 template <class T>
 [[nodiscard]] inline InverseW<T> ends_of_axis(Mat4<T> const& canonical, Light<T> const& light, T gain) noexcept {
     Vec4<T> const axis(light.direction, T(0));
-    T const at_infinity = glm::dot(row(canonical, 2), axis) / glm::dot(row(canonical, 3), axis);
+    T const w_along = glm::dot(row(canonical, 3), axis);
+    if (!(w_along > T(0))) return {};
+    T const at_infinity = glm::dot(row(canonical, 2), axis) / w_along;
     InverseW<T> const ends{at_infinity / gain, (at_infinity - T(1)) / gain};
     if (!all_finite(&ends.nearest, 1) || !all_finite(&ends.farthest, 1) || !(ends.nearest > T(0))) return {};
     return {ends.nearest, ends.farthest > T(0) ? ends.farthest : T(0)};

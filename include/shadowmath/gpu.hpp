@@ -28,6 +28,7 @@
 #include <shadowmath/config.hpp>
 #include <shadowmath/finite.hpp>
 #include <shadowmath/light.hpp>
+#include <shadowmath/penumbra.hpp>
 #include <shadowmath/shadow_map.hpp>
 
 #include <cstddef>
@@ -67,6 +68,20 @@ struct GpuCascade {
 static_assert(offsetof(GpuCascade, map) == 0);
 static_assert(offsetof(GpuCascade, bias) == 80);
 static_assert(sizeof(GpuCascade) == 96);
+
+// sm_MapPenumbra of glsl/penumbra.glsl: what soft shadows need of one map.
+struct GpuMapPenumbra {
+    Vec4<float> rim_x{0.0f};
+    Vec4<float> rim_y{0.0f};
+    float depth_of_gap = 1.0f;
+    float largest_gap = 0.0f;
+    float unused[2] = {};
+};
+static_assert(offsetof(GpuMapPenumbra, rim_x) == 0);
+static_assert(offsetof(GpuMapPenumbra, rim_y) == 16);
+static_assert(offsetof(GpuMapPenumbra, depth_of_gap) == 32);
+static_assert(offsetof(GpuMapPenumbra, largest_gap) == 36);
+static_assert(sizeof(GpuMapPenumbra) == 48);
 
 // sm_Ranges: metres of eye depth.
 struct GpuRanges {
@@ -119,6 +134,18 @@ template <class T>
     bool const finite = all_finite(&gpu.constant, 1) && all_finite(&gpu.per_inverse_w, 1) &&
                         all_finite(&gpu.slope_texels, 1) && all_finite(&gpu.slope_limit, 1);
     return {gpu_shadow_map(map), finite ? gpu : GpuMapBias{}};
+}
+
+// Hard shadows where float cannot hold the numbers.
+template <class T>
+[[nodiscard]] inline GpuMapPenumbra gpu_penumbra(MapPenumbra<T> const& penumbra) noexcept {
+    GpuMapPenumbra gpu;
+    gpu.rim_x = Vec4<float>(penumbra.rim_x);
+    gpu.rim_y = Vec4<float>(penumbra.rim_y);
+    gpu.depth_of_gap = static_cast<float>(penumbra.depth_of_gap);
+    gpu.largest_gap = static_cast<float>(penumbra.largest_gap);
+    bool const finite = all_finite(gpu.rim_x) && all_finite(gpu.rim_y) && all_finite(&gpu.depth_of_gap, 2);
+    return finite && gpu.depth_of_gap > 0.0f ? gpu : GpuMapPenumbra{};
 }
 
 // Everything that a receiver shader needs of the cascades. `options` are those that they were fitted with; the filter
