@@ -18,8 +18,17 @@ test_packages=(
     libgtest-dev librapidcheck-dev
     vulkan-validationlayers                                      # watch every call of the Vulkan backend
     clang clang-format                                           # the second compiler, the layout of the code
+    libclang-rt-14-dev                                           # sanitizers and libFuzzer
+    codespell gdb                                                # spelling; the pretty-printers are tried in a debugger
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery
+)
+all_packages=(
+    clang-19                                                     # the newest compiler
+    g++-aarch64-linux-gnu qemu-user-static                       # another processor
+    emscripten nodejs                                            # and WebAssembly
+    g++-mingw-w64-x86-64-posix libx11-dev                        # the real windows.h and Xlib.h
+    gcovr                                                        # which lines and branches the tests reach
 )
 
 bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev nlohmann-json3-dev)

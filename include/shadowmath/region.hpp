@@ -83,6 +83,7 @@ template <class T>
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
     Vec2<T> const scale = T(2) / (region.hi - region.lo);
     Vec2<T> const offset = -(region.hi + region.lo) / (region.hi - region.lo);
+    if (!all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
     return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
                      Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }
@@ -194,8 +195,8 @@ struct BoundsInBlocks {
     }
 };
 
-// Products of a row with both ends of each axis of a box. A corner is X + Y + Z, so that eight corners are six products,
-// and the extent of all of them is three sums.
+// Products of a row with both ends of each axis of a box. A corner is X + Y + Z, so that eight corners are six
+// products, and the extent of all of them is three sums.
 template <class T>
 struct EndProducts {
     T x0, x1, y0, y1, z0, z1;

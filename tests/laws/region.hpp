@@ -73,8 +73,7 @@ template <class T>
         if (!all_finite(boxes[i]) || is_empty(boxes[i])) continue;
         Aabb<T> const own = projected_bounds(clip_from_world, corners(boxes[i]), w_min);
         if (!is_empty(own)) merged = merge(merged, own);
-        for (Vec3<T> const& corner : corners(boxes[i]))
-            reach = std::max(reach, glm::length(Vec3<long double>(corner)));
+        for (Vec3<T> const& corner : corners(boxes[i])) reach = std::max(reach, glm::length(Vec3<long double>(corner)));
     }
     if (is_empty(merged) || is_empty(together)) return is_empty(merged) == is_empty(together);
     long double const unit = 32 * static_cast<long double>(std::numeric_limits<T>::epsilon()) * reach;
