@@ -51,3 +51,6 @@
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>
+
+// Exact hard shadows.
+#include <shadowmath/irregular.hpp>
