@@ -80,3 +80,6 @@
 
 // And what it reads.
 #include <shadowmath/gpu.hpp>
+
+// Exact hard shadows.
+#include <shadowmath/irregular.hpp>
