@@ -62,6 +62,14 @@ template <class T>
     return std::ldexp(std::ceil(mantissa * T(16)), exponent - 4);
 }
 
+namespace detail {
+
+// Cosines of faces that the light runs along: they are taken to stop nothing.
+template <class T>
+inline constexpr T least_along = T(1e-4);
+
+}  // namespace detail
+
 // Metres along the light, from the world origin, at which the rays between the sides lo and hi (light space) enter the
 // box: nothing of it lies before. Never later than the truth, and earlier by what the box's faces rise across the
 // sides. Above the far side of the box for rays that pass it by.
@@ -71,8 +79,7 @@ template <class T>
     T entry = -detail::farthest_metres<T>;
     for (int k = 0; k < 3; ++k) {
         T const along = basis.depth[k];
-        // Faces that the light runs along stop nothing.
-        if (!(std::abs(along) > T(1e-4))) continue;
+        if (!(std::abs(along) > detail::least_along<T>)) continue;
         // On a ray world coordinate k is across + along * depth.
         T const x0 = basis.x[k] * lo.x, x1 = basis.x[k] * hi.x, y0 = basis.y[k] * lo.y, y1 = basis.y[k] * hi.y;
         T const face = along > T(0) ? box.lo[k] : box.hi[k];

@@ -52,7 +52,11 @@
 #include <shadowmath/sample_bounds.hpp>
 #include <shadowmath/sample_depths.hpp>
 #include <shadowmath/sdsm.hpp>
+#include <shadowmath/stored_depth.hpp>
 
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
 #include <shadowmath/sampling.hpp>
+
+// What compute shaders are given.
+#include <shadowmath/gpu_samples.hpp>

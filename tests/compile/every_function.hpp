@@ -79,6 +79,7 @@ int every_function() noexcept {
     count += keep(&by_depth<T>, &by_map<T>, &blended<T>, &shade<T>);
     count +=
         keep(&sample_rays<T>, &from_eye<T>, &is_served<T>, &eighth_of_octave_up<T>, &light_entry<T>, &fit_samples<T>);
+    count += keep(&depth_code<T>, &decoded_depth<T>, &gpu_sample_fit);
     count += keep(&texture_from_world<T>);
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
