@@ -25,13 +25,16 @@
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
+#include <shadowmath/fit_focus.hpp>
+#include <shadowmath/fit_rectangle.hpp>
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/light_box.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/polytope.hpp>
+#include <shadowmath/sweep.hpp>
 
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
-#include <shadowmath/polytope.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
@@ -42,6 +45,7 @@
 // What a matrix is worth, and needs.
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/bias.hpp>
+#include <shadowmath/culling.hpp>
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/tangent.hpp>
 

@@ -30,8 +30,13 @@ int every_overloaded_function() noexcept {
     count += corners(box)[0] == corners(view)[0];
     count += (faults_of(view) | faults_of(Light<T>{}) | faults_of(Tile{})).any();
     count += describe(Fault::not_finite) != describe(Faults{});
+    CasterMaps<T> const casters = caster_maps(Cascades<T>{});
+    count += caster_mask(casters, box) + caster_mask(caster_maps(&map, 1), Sphere<T>{});
     count += clip_from_world(LightBox<T>{}, reversed(gl_clip)) == clip_from_world(view, vulkan_clip);
     count += clip_from_world(TexelGrid<T>{}, T(0), T(1), d3d_clip) == identity;
+    count += area(LightBox<T>{}) > area(Footprint<T>{});
+    HalfSpaces<T> const swept = swept_to_light(convex_body(box), Vec4<T>(T(0), T(-1), T(0), T(0)));
+    count += may_meet(swept, box) && clipped(clipped(convex_body(box), swept), Vec4<T>(T(1))).edge_count > 0;
     for_each_vertex(convex_body(corners(box)), [&count](Vec3<T> const& vertex) { count += vertex.x > T(0); });
     SampleDepths<T> depths = no_depths(T(1), T(10));
     add(depths, T(2));
@@ -60,20 +65,23 @@ int every_function() noexcept {
     count += keep(&fit_cascades<T>);
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
     count += keep(&row<T>, &from_rows<T>, &nowhere<T>);
+    count += keep(&add_map<T>, &caster_masks<T>);
+    count += map_range(0).first;
     count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
     count += keep(&tap_weight<T>);
     count += keep(&is_positive_infinity<T>, &safe_normalize<T>);
     count += keep(&box_around<T>, &fit_box<T>);
+    count += keep(&focus_of<T>, &fit_focus<T>, &rolled<T>, &fit_rectangle<T>);
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
                   &spot_clip_from_world<T>, &fit_spot<T>);
     count += keep(&bounding_sphere<T>);
-    count += keep(&area<T>, &texels_per_pixel<T>, &footprint<T>);
+    count += keep(&texels_per_pixel<T>, &footprint<T>);
     count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,
                   &in_light<T>);
     count += keep(&texel_metres<T>, &rebased<T>);
     count += keep(&door<T>, &map_from_rows<T>);
     count += keep(&faults_of_margin<T>, &usable_texels<T>);
-    count += keep(&convex_body<T>, &clipped<T>, &visible_body<T>);
+    count += keep(&translated<T>, &visible_body<T>);
     count +=
         keep(&region_of<T>, &widened<T>, &with_margin<T>, &region_matrix<T>, &tile_matrix<T>, &projected_bounds<T>);
     count += keep(&by_depth<T>, &by_map<T>, &blended<T>, &shade<T>);

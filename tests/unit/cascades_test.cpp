@@ -49,6 +49,49 @@ TYPED_TEST(CascadesOf, TightMapsHaveSmallerTexelsThanStableOnes) {
     for (int i = 0; i < stable.count; ++i) EXPECT_LT(tight.at[i].texel_metres, stable.at[i].texel_metres);
 }
 
+TYPED_TEST(CascadesOf, RectanglesCoverLessThanBoxesAndTheFocusLessThanRectangles) {
+    using T = TypeParam;
+    this->view.pose = pose_looking(this->view.pose.position, Vec3<T>(T(1), T(-0.1), T(-2)), this->view.pose.up);
+    double covered[3] = {};
+    for (int i = 0; i < 3; ++i) {
+        this->options.fit = static_cast<CascadeFit>(1 + i);
+        auto const cascades = this->fitted();
+        EXPECT_FALSE(cascades.faults.any());
+        for (auto const& c : cascades) {
+            EXPECT_TRUE(c.map.visible);
+            EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+            covered[i] += static_cast<double>(laws::square_metres(c.map));
+        }
+    }
+    EXPECT_LT(covered[1], 0.95 * covered[0]);
+    EXPECT_LT(covered[2], 0.95 * covered[1]);
+}
+
+TYPED_TEST(CascadesOf, RectanglesKeepTheAngleOfTheLastFrame) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::rectangle;
+    auto const before = this->fitted();
+    // Half a degree to the left.
+    this->view.pose = pose_looking(this->view.pose.position, Vec3<T>(T(-0.009), T(0), T(-1)), this->view.pose.up);
+    auto const after =
+        fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
+    for (int i = 0; i < after.count; ++i) {
+        auto const x = [i](Cascades<T> const& c) {
+            return safe_normalize(Vec3<T>(row(c.at[i].map.clip_from_world, 0))).direction;
+        };
+        EXPECT_NEAR(glm::dot(x(before), x(after)), T(1), 1e-6);
+        EXPECT_LT(glm::dot(x(this->fitted()), x(before)), T(1) - T(1e-5));
+    }
+}
+
+TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {
+    this->options.fit = CascadeFit::focus;
+    auto const whole = this->fitted();
+    this->options.pancake = true;
+    auto const flat = this->fitted();
+    for (int i = 0; i < flat.count; ++i) EXPECT_LT(flat.at[i].depth_metres, whole.at[i].depth_metres);
+}
+
 TYPED_TEST(CascadesOf, NothingFollowsTheShadowDistance) {
     this->options.shadow_distance = TypeParam(120);
     auto const cascades = this->fitted();
