@@ -4,7 +4,6 @@
 // (Kwon 2002, section 4.4). Colours are linear; the sRGB attachment encodes them.
 #version 450
 #include "receive.glsl"
-#include "transform.glsl"
 #include "shadow.glsl"
 
 layout(location = 0) in vec3 position_from_eye;

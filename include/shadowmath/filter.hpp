@@ -30,13 +30,18 @@ struct FilterOptions {
     bool tap_plane = true;  // compare each tap with the receiver plane's depth there, not with the point's
 };
 
-// Share of the kernel that texel `tap` (-radius to radius from the one that holds the point) covers along one axis,
-// when the point lies the `fraction` [0, 1) into its texel. The taps of an axis sum to 1.
+// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis, when
+// the point lies the `fraction` [0, 1) into its texel.
+template <class T>
+[[nodiscard]] constexpr T covered_texels(int tap, int radius, T fraction) noexcept {
+    if (radius == 0) return T(1);
+    return tap == -radius ? T(1) - fraction : (tap == radius ? fraction : T(1));
+}
+
+// The same as a share of the kernel: the taps of an axis sum to 1.
 template <class T>
 [[nodiscard]] constexpr T tap_weight(int tap, int radius, T fraction) noexcept {
-    if (radius == 0) return T(1);
-    T const covered = tap == -radius ? T(1) - fraction : (tap == radius ? fraction : T(1));
-    return covered / T(2 * radius);
+    return radius == 0 ? T(1) : covered_texels(tap, radius, fraction) / T(2 * radius);
 }
 
 // A receiver as the map sees it.
@@ -47,7 +52,8 @@ struct Receiver {
     DepthSlope<T> slope;  // on its plane
 };
 
-// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light.
+// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1 and
+// 0 are exact where all taps agree.
 // `stored_depth(x, y)` is asked for texels of the map only; those outside hold nothing. Depths are compared within
 // [0, 1], as they are stored: a receiver beyond the far end is lit by the cleared map. What is not finite is lit.
 template <class T, class StoredDepth>
@@ -71,16 +77,16 @@ template <class T, class StoredDepth>
     };
     int const home_x = static_cast<int>(std::floor(at.x)), home_y = static_cast<int>(std::floor(at.y));
     Vec2<T> const fraction(at.x - T(home_x), at.y - T(home_y));
-    T visibility = T(0);
+    T lit = T(0), dark = T(0);
     for (int j = -radius; j <= radius; ++j) {
         for (int i = -radius; i <= radius; ++i) {
-            T const weight = tap_weight(i, radius, fraction.x) * tap_weight(j, radius, fraction.y);
+            T const weight = covered_texels(i, radius, fraction.x) * covered_texels(j, radius, fraction.y);
             Vec2<T> const to_tap = Vec2<T>(T(i), T(j)) + T(0.5) - fraction;
             T const rise = options.tap_plane ? receiver.slope.x * to_tap.x + receiver.slope.y * to_tap.y : T(0);
-            if (is_lit(home_x + i, home_y + j, receiver.depth + rise)) visibility += weight;
+            (is_lit(home_x + i, home_y + j, receiver.depth + rise) ? lit : dark) += weight;
         }
     }
-    return visibility < T(1) ? visibility : T(1);
+    return dark == T(0) ? T(1) : lit / (lit + dark);
 }
 
 // What a receiver shader does for one map: project the point and the plane through it, subtract the bias, filter. 1

@@ -68,7 +68,7 @@ int every_function() noexcept {
     count += keep(&add_map<T>, &caster_masks<T>);
     count += map_range(0).first;
     count += keep(&depths_inside<T>, &depth_range<T>, &in_steps<T>);
-    count += keep(&tap_weight<T>);
+    count += keep(&covered_texels<T>, &tap_weight<T>);
     count += keep(&is_positive_infinity<T>, &safe_normalize<T>);
     count += keep(&box_around<T>, &fit_box<T>);
     count += keep(&focus_of<T>, &fit_focus<T>, &rolled<T>, &fit_rectangle<T>);
@@ -92,7 +92,7 @@ int every_function() noexcept {
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);
-    count += keep(&projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
+    count += keep(&transformed<T>, &projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
     count += keep(&texel_grid<T>, &on_grid<T>);
     count += keep(&plane_through<T>, &mean_height_plane<T>, &plane_projection<T>, &view_dependent_map<T>,
                   &receiver_valid<T>);
