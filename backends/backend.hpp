@@ -20,6 +20,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,13 +32,29 @@ inline constexpr int max_maps = 8;
 // One shadow map to draw: a layer of the map array.
 struct DepthLayer {
     glm::mat4 clip_from_world{1.0f};
-    std::span<std::uint32_t const> objects;  // indices into Scene::objects, drawn in this order
+    std::span<std::uint32_t const> objects;  // indices into Scene::objects: the casters, in any order
 };
+
+// How several maps are drawn. Every way gives the same maps, texel by texel; they differ in what they cost.
+enum class DrawWay {
+    pass_per_map,     // one pass a map; every driver has it
+    geometry_clones,  // one pass; a geometry shader clones each triangle into its maps
+    instances,        // one pass; each map of an object is an instance, and the vertex shader names the layer
+    multiview,        // one pass for each set of maps that some object is drawn into; Vulkan alone
+};
+inline constexpr std::array every_way{DrawWay::pass_per_map, DrawWay::geometry_clones, DrawWay::instances,
+                                      DrawWay::multiview};
+
+[[nodiscard]] constexpr char const* name_of(DrawWay way) {
+    constexpr std::array names{"one pass a map", "geometry-shader clones", "instances", "multiview"};
+    return names[static_cast<std::size_t>(way)];
+}
 
 struct DepthPass {
     int map_size = 1024;                 // texels along one side; all layers share it
     std::span<DepthLayer const> layers;  // 1 to max_maps
     bool depth_clamp = true;             // pancake casters outside [0, 1] in depth instead of clipping them
+    DrawWay way = DrawWay::pass_per_map;
 };
 
 enum class MapChoice : std::int32_t {
@@ -75,7 +92,7 @@ struct FrameConstants {
     float map_size = 1.0f;           // texels
     float specular = 0.15f;
     float specular_power = 24.0f;
-    float unused = 0.0f;
+    std::int32_t first_map = 0;  // what the map maps[0] is called in Frame::position
     std::array<MapConstants, max_maps> maps{};
 };
 static_assert(sizeof(MapConstants) == 96 && sizeof(FrameConstants) == 64 + 7 * 16 + 2 * 16 + max_maps * 96,
@@ -100,6 +117,27 @@ struct Frame {
     Image<Texel4> normal;    // geometric normal, unit, toward the eye; w: visibility of the light, 0 to 1
 };
 
+// What the driver counted. How it does so is its own affair; software drivers count as written here.
+struct DriverCount {
+    std::uint64_t vertices = 0;            // read by the input assembly
+    std::uint64_t triangles = 0;           // assembled from them
+    std::uint64_t vertex_runs = 0;         // of the vertex shader
+    std::uint64_t geometry_runs = 0;       // of the geometry shader
+    std::uint64_t geometry_triangles = 0;  // that it gave
+    std::uint64_t clipper_triangles = 0;   // that reached the clipper: once for each map that they are drawn into
+    std::uint64_t raster_triangles = 0;    // that the clipper gave
+};
+
+// What a pass handed to the driver, and what that cost.
+struct DrawWork {
+    double milliseconds = 0.0;          // until the driver has finished
+    std::uint64_t passes = 0;           // times that it was given somewhere to draw to
+    std::uint64_t draw_calls = 0;       // ranges of the index array
+    std::uint64_t vertices = 0;         // indices in these ranges, times their instances
+    std::uint64_t triangles = 0;        // each counted once for each map or picture that it is drawn into
+    std::optional<DriverCount> driver;  // where the driver counts
+};
+
 struct BackendInfo {
     std::string name;             // "egl", "osmesa", "vulkan", "null"
     std::string driver;           // as the driver calls itself
@@ -114,9 +152,17 @@ public:
     Backend& operator=(Backend const&) = delete;
 
     [[nodiscard]] virtual BackendInfo info() const = 0;
+    [[nodiscard]] virtual std::vector<DrawWay> ways() const = 0;  // that draw_depth takes here
     virtual void upload(Scene const& scene) = 0;
-    virtual double draw_depth(DepthPass const& pass) = 0;  // milliseconds until the driver has finished
-    virtual double draw_scene(ScenePass const& pass) = 0;  // milliseconds until the driver has finished
+    virtual DrawWork draw_depth(DepthPass const& pass) = 0;
+    virtual DrawWork draw_scene(ScenePass const& pass) = 0;
+
+    // Both in turns, with memory for one map (Zhang, Sun, Nyman 2007, 10.3.1): each map is drawn over the last, and at
+    // once the receivers between its depth_begin and depth_end, clipped there. It leaves the picture of draw_depth and
+    // draw_scene, but for pixels at the borders and those that blend, for no second map is there; and the last map, as
+    // layer 0. The maps are chosen by depth. The way of the pass is of no account.
+    virtual DrawWork draw_split_by_split(DepthPass const& maps, ScenePass const& view) = 0;
+
     [[nodiscard]] virtual Image<float> read_depth(int layer) = 0;
     [[nodiscard]] virtual Frame read_frame() = 0;
 

@@ -7,6 +7,7 @@
 
 #include "backends/backend.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -60,6 +61,21 @@ namespace shadowmath::backend {
         if (!is_finite(frame.maps[static_cast<std::size_t>(i)].clip_from_world))
             return "scene pass: map " + std::to_string(i) + " has a matrix that is not finite";
     return {};
+}
+
+[[nodiscard]] inline std::string fault_of(DepthPass const& maps, ScenePass const& view, std::size_t object_count) {
+    if (std::string const fault = fault_of(maps, object_count); !fault.empty()) return fault;
+    if (std::string const fault = fault_of(view, static_cast<int>(maps.layers.size())); !fault.empty()) return fault;
+    if (std::size_t(view.frame.map_count) != maps.layers.size())
+        return "split by split: " + std::to_string(maps.layers.size()) + " maps are drawn, but " +
+               std::to_string(view.frame.map_count) + " are read";
+    if (view.frame.choice != MapChoice::by_depth) return "split by split: the maps are not chosen by depth";
+    return {};
+}
+
+[[nodiscard]] inline std::string fault_of(DrawWay way, std::span<DrawWay const> ways) {
+    if (std::ranges::find(ways, way) != ways.end()) return {};
+    return std::string("depth pass: this driver cannot draw maps by ") + name_of(way);
 }
 
 // For backends that draw.

@@ -50,6 +50,6 @@ void main() {
     vec3 direct = frame.light_colour.rgb * ((diffuse + specular) * spot * shadow.visibility);
 
     colour = vec4((frame.ambient.rgb + direct) * reflectance, 1.0);
-    position_and_map = vec4(point, float(shadow.map));
+    position_and_map = vec4(point, float(shadow.map < 0 ? shadow.map : frame.first_map + shadow.map));
     normal_and_visibility = vec4(plane_normal, shadow.visibility);
 }

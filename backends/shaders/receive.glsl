@@ -33,6 +33,6 @@ layout(std140, binding = 0) uniform FrameConstants {
     float map_size;
     float specular;
     float specular_power;
-    float unused;
+    int first_map;
     MapConstants maps[max_maps];
 } frame;

@@ -113,7 +113,7 @@ PipelineLayout make_layout(VkDevice device, SetLayout const& set) {
 }
 
 Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, Extent extent,
-                             std::span<VkImageView const> attachments) {
+                             std::span<VkImageView const> attachments, int layers) {
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = render_pass;
@@ -121,7 +121,7 @@ Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, Extent e
     info.pAttachments = attachments.data();
     info.width = static_cast<std::uint32_t>(extent.width);
     info.height = static_cast<std::uint32_t>(extent.height);
-    info.layers = 1;
+    info.layers = static_cast<std::uint32_t>(layers);
     return {device, vkCreateFramebuffer, info, "make a framebuffer"};
 }
 

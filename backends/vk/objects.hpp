@@ -55,6 +55,7 @@ using RenderPass = Owned<VkRenderPass, vkDestroyRenderPass>;
 using Framebuffer = Owned<VkFramebuffer, vkDestroyFramebuffer>;
 using CommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
 using Fence = Owned<VkFence, vkDestroyFence>;
+using QueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
 
 struct Buffer {
     Memory memory;
@@ -91,6 +92,6 @@ struct TargetShape {
 [[nodiscard]] PipelineLayout make_layout(VkDevice device, SetLayout const& set);
 
 [[nodiscard]] Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, Extent extent,
-                                           std::span<VkImageView const> attachments);
+                                           std::span<VkImageView const> attachments, int layers = 1);
 
 }  // namespace shadowmath::backend::vk

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "backends/vk/vk_backend.hpp"
 
-#include "backends/index_ranges.hpp"
+#include "backends/constants.hpp"
 #include "backends/pass_check.hpp"
 #include "backends/vk/barrier.hpp"
 #include "backends/vk/commands.hpp"
-#include "backends/vk/pipelines.hpp"
+#include "backends/vk/statistics.hpp"
+#include "backends/vk/targets.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
@@ -18,46 +21,32 @@ namespace {
 
 using namespace vk;
 
-// Uniform blocks lie at multiples of 256 bytes, the coarsest alignment that the specification lets a driver ask for.
-struct alignas(256) MapBlock {
-    glm::mat4 clip_from_world;
-};
-struct alignas(256) FrameBlock {
-    FrameConstants frame;
-};
-// The binding is as wide as the widest block, wherever it begins.
-constexpr VkDeviceSize constants_size = (max_maps - 1) * sizeof(MapBlock) + sizeof(FrameBlock);
-static_assert(constants_size >= 2 * sizeof(FrameBlock));
-
-struct Maps {
-    Target target;
-    ImageView all;  // what the receiver reads
-    std::array<ImageView, max_maps> layer;
-    std::array<Framebuffer, max_maps> framebuffer;
-    int size = 0;
-    int layers = 0;
-};
-
-struct FrameTargets {
-    Target colour, position, normal, depth;
-    ImageView colour_view, position_view, normal_view, depth_view;
-    Framebuffer framebuffer;
-    Extent extent;
-};
-
 class VulkanBackend final : public Backend {
 public:
     explicit VulkanBackend(VulkanOptions const& options)
-        : mistake_(options.mistake), device_(options), commands_(device_), pipelines_(device_.get()),
-          constants_(make_host_buffer(device_, constants_size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
+        : mistake_(options.mistake), device_(options), commands_(device_),
+          views_at_once_(std::min(device_.abilities().views_at_once, std::uint32_t{max_maps})), pipelines_(device_),
+          statistics_(device_),
+          constants_(make_host_buffer(device_, sizeof(Constants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
+          numbers_(make_host_buffer(device_, sizeof(instance_numbers), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)) {
+        std::memcpy(numbers_.mapped, instance_numbers.data(), sizeof(instance_numbers));
         make_descriptors();
         prepare_maps(1, 1);  // the receiver's binding always has an image
-        if (mistake_ == VulkanMistake::leak) Pipelines(device_.get()).sampler.forget();
+        if (views_at_once_ > 1u && !second_view_works()) views_at_once_ = 1u;
+        if (mistake_ == VulkanMistake::leak) Pipelines(device_).sampler.forget();
     }
 
     ~VulkanBackend() override { vkDeviceWaitIdle(device_.get()); }  // a call that threw may have left work behind
 
     BackendInfo info() const override { return {"vulkan", device_.description(), "SPIR-V"}; }
+
+    std::vector<DrawWay> ways() const override {
+        std::vector<DrawWay> ways{DrawWay::pass_per_map};
+        if (device_.abilities().geometry_shader) ways.push_back(DrawWay::geometry_clones);
+        if (device_.abilities().layer_from_vertex_shader) ways.push_back(DrawWay::instances);
+        if (views_at_once_ > 0u) ways.push_back(DrawWay::multiview);
+        return ways;
+    }
 
     void upload(Scene const& scene) override {
         demand_none(fault_of(scene));
@@ -66,57 +55,66 @@ public:
         objects_ = scene.objects;
     }
 
-    double draw_depth(DepthPass const& pass) override {
+    DrawWork draw_depth(DepthPass const& pass) override {
         demand_none(fault_of(pass, objects_.size()));
+        demand_none(fault_of(pass.way, ways()));
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
-        std::array<MapBlock, max_maps> blocks{};
-        std::array<IndexRanges, max_maps> ranges;
-        for (std::size_t i = 0; i < pass.layers.size(); ++i) {
-            blocks[i].clip_from_world = pass.layers[i].clip_from_world;
-            for (std::uint32_t const object : pass.layers[i].objects) append(ranges[i], objects_[object]);
-        }
+        bool const multiview = pass.way == DrawWay::multiview;
+        std::uint32_t const at_once = multiview ? views_at_once_ : std::uint32_t{max_maps};
+        std::vector<DrawGroup> const groups = plan_draws(pass, objects_, at_once);
+        Constants constants;
+        constants.set(pass.layers, at_once);
         Use const drawn =
             mistake_ == VulkanMistake::depth_pass_without_barrier ? unsynchronised_from(depth_drawn) : depth_drawn;
-        VkClearValue far_end{};
-        far_end.depthStencil = {1.0f, 0};
-        return timed([&](VkCommandBuffer commands) {
-            std::memcpy(constants_.mapped, blocks.data(), sizeof(blocks));
+        return timed(work_of(pass.way, groups), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
             hand_over(commands, maps_.target, fresh, depth_drawn);
-            for (std::size_t i = 0; i < pass.layers.size(); ++i) {
-                begin(commands, pipelines_.depth_pass, maps_.framebuffer[i], {maps_.size, maps_.size}, {&far_end, 1},
-                      pass.depth_clamp ? pipelines_.depth_clamped : pipelines_.depth_clipped);
-                draw(commands, i * sizeof(MapBlock), ranges[i]);
-                vkCmdEndRenderPass(commands);
-            }
+            if (multiview) clear_maps(commands);
+            for (DrawGroup const& group : groups) draw_group(commands, pass, group);
             hand_over(commands, maps_.target, drawn, depth_sampled);
         });
     }
 
-    // Objects that receive nothing are drawn by the same shader with no map to read.
-    double draw_scene(ScenePass const& pass) override {
+    DrawWork draw_scene(ScenePass const& pass) override {
         demand_none(fault_of(pass, maps_.layers));
         prepare_frame(pass.extent);
-        std::array<FrameBlock, 2> blocks{FrameBlock{pass.frame}, FrameBlock{pass.frame}};
-        blocks[1].frame.map_count = 0;
-        std::array<IndexRanges, 2> ranges;
-        for (Object const& object : objects_) append(ranges[object.receives ? 0 : 1], object);
-
-        glm::vec4 const& sky = pass.frame.sky;
-        std::array<VkClearValue, 4> clear{};
-        clear[0].color = {{sky.r, sky.g, sky.b, sky.a}};
-        clear[1].color = {{0.0f, 0.0f, 0.0f, -2.0f}};  // no point
-        clear[2].color = {{0.0f, 0.0f, 0.0f, 1.0f}};   // no normal, lit
-        clear[3].depthStencil = {1.0f, 0};
-        return timed([&](VkCommandBuffer commands) {
-            std::memcpy(constants_.mapped, blocks.data(), sizeof(blocks));
-            for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
-                hand_over(commands, *target, fresh, colour_drawn);
-            hand_over(commands, frame_.depth, fresh, depth_drawn);
-            begin(commands, pipelines_.receive_pass, frame_.framebuffer, frame_.extent, clear, pipelines_.receive);
-            for (std::size_t i = 0; i < ranges.size(); ++i) draw(commands, i * sizeof(FrameBlock), ranges[i]);
+        std::vector<ViewDraw> const views = plan_view(pass, objects_);
+        Constants constants;
+        constants.set(views);
+        return timed(work_of(views), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            begin_view(commands, pass.frame.sky);
+            for (std::size_t i = 0; i < views.size(); ++i) draw_view(commands, views[i], i);
             vkCmdEndRenderPass(commands);
-            for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
-                hand_over(commands, *target, colour_drawn, copied_from);
+            finish_view(commands);
+        });
+    }
+
+    DrawWork draw_split_by_split(DepthPass const& pass, ScenePass const& view) override {
+        demand_none(fault_of(pass, view, objects_.size()));
+        DepthPass maps = pass;
+        maps.way = DrawWay::pass_per_map;
+        prepare_maps(maps.map_size, 1);
+        prepare_frame(view.extent);
+        SplitPlan const plan = plan_split_by_split(maps, view, objects_);
+        Constants constants;
+        constants.set(maps.layers);
+        constants.set(plan.views);
+        return timed(work_of(plan), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            for (std::size_t i = 0; i < plan.maps.size(); ++i) {
+                hand_over(commands, maps_.target, i == 0 ? fresh : depth_sampled, depth_drawn);
+                draw_group(commands, maps, plan.maps[i]);
+                hand_over(commands, maps_.target, depth_drawn, depth_sampled);
+                if (i == 0)
+                    begin_view(commands, view.frame.sky);
+                else
+                    resume_view(commands);
+                std::size_t const end = i + 1 == plan.maps.size() ? plan.views.size() : i + 1;
+                for (std::size_t k = i; k < end; ++k) draw_view(commands, plan.views[k], k);
+                vkCmdEndRenderPass(commands);
+            }
+            finish_view(commands);
         });
     }
 
@@ -164,6 +162,24 @@ private:
     template <class Pixel>
     static VkDeviceSize byte_count(Image<Pixel> const& image) {
         return image.pixels.size() * sizeof(Pixel);
+    }
+
+    // Mesa 22.3's software driver transforms every view of a draw and rasterises them all into the first one's map. What
+    // is left of multiview is then one view at a time. So two views are drawn and looked at.
+    bool second_view_works() {
+        Scene scene;
+        for (glm::vec2 const corner : {glm::vec2(-1, -1), glm::vec2(3, -1), glm::vec2(-1, 3)})
+            scene.vertices.push_back({glm::vec3(corner, 0.5f), {0, 0, 1}, {255, 255, 255, 255}});
+        scene.indices = {0, 1, 2};
+        scene.objects = {{0, 3}};
+        upload(scene);
+        std::array<std::uint32_t, 1> const triangle{0};
+        std::array<DepthLayer, 2> const both{{{glm::mat4(1.0f), triangle}, {glm::mat4(1.0f), triangle}}};
+        draw_depth({1, both, true, DrawWay::multiview});
+        bool const works = read_depth(1).at(0, 0) < 1.0f;
+        upload({});
+        prepare_maps(1, 1);
+        return works;
     }
 
     void make_descriptors() {
@@ -219,20 +235,9 @@ private:
 
     void prepare_maps(int size, int layers) {
         if (size == maps_.size && layers == maps_.layers) return;
-        Maps maps;
         VkImageUsageFlags usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
         if (mistake_ != VulkanMistake::usage_forgotten) usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        maps.target = make_target(device_, {depth_format, {size, size}, layers, usage},
-                                  std::to_string(layers) + " shadow maps of " + std::to_string(size));
-        maps.all = make_view(device_.get(), maps.target, depth_format, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, layers);
-        for (int i = 0; i < layers; ++i) {
-            auto const at = static_cast<std::size_t>(i);
-            maps.layer[at] = make_view(device_.get(), maps.target, depth_format, VK_IMAGE_VIEW_TYPE_2D, i, 1);
-            maps.framebuffer[at] =
-                make_framebuffer(device_.get(), pipelines_.depth_pass, {size, size}, {maps.layer[at].address(), 1});
-        }
-        maps.size = size;
-        maps.layers = layers;
+        Maps maps = make_maps(device_, pipelines_, size, layers, static_cast<int>(views_at_once_), usage);
         submit([&](VkCommandBuffer commands) { hand_over(commands, maps.target, fresh, depth_sampled); });
 
         VkDescriptorImageInfo const image{pipelines_.sampler, maps.all, depth_sampled.layout};
@@ -244,31 +249,20 @@ private:
 
     void prepare_frame(Extent extent) {
         if (extent.width == frame_.extent.width && extent.height == frame_.extent.height) return;
-        FrameTargets frame;
-        auto const make = [&](Target& target, ImageView& view, VkFormat format, VkImageUsageFlags usage) {
-            target = make_target(device_, {format, extent, 1, usage},
-                                 "a frame of " + std::to_string(extent.width) + " x " + std::to_string(extent.height));
-            view = make_view(device_.get(), target, format, VK_IMAGE_VIEW_TYPE_2D, 0, 1);
-        };
-        constexpr auto kept = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        make(frame.colour, frame.colour_view, colour_format, kept);
-        make(frame.position, frame.position_view, geometry_format, kept);
-        make(frame.normal, frame.normal_view, geometry_format, kept);
-        make(frame.depth, frame.depth_view, depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-        std::array<VkImageView, 4> const views{frame.colour_view, frame.position_view, frame.normal_view,
-                                               frame.depth_view};
-        frame.framebuffer = make_framebuffer(device_.get(), pipelines_.receive_pass, extent, views);
-        frame.extent = extent;
-        frame_ = std::move(frame);
+        frame_ = make_frame(device_, pipelines_, extent);
     }
 
     // A positive viewport: NDC y = -1 is row 0, as in the other backends.
+    static void set_viewport(VkCommandBuffer commands, Extent extent, float z_begin, float z_end) {
+        VkViewport const viewport{0.0f,    0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                                  z_begin, z_end};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+    }
+
     void begin(VkCommandBuffer commands, VkRenderPass render_pass, VkFramebuffer framebuffer, Extent extent,
                std::span<VkClearValue const> clear, VkPipeline pipeline) const {
         VkRect2D const area{{0, 0},
                             {static_cast<std::uint32_t>(extent.width), static_cast<std::uint32_t>(extent.height)}};
-        VkViewport const viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                                  0.0f, 1.0f};
         VkRenderPassBeginInfo info{};
         info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
         info.renderPass = render_pass;
@@ -278,19 +272,104 @@ private:
         info.pClearValues = clear.data();
         vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        vkCmdSetViewport(commands, 0, 1, &viewport);
+        set_viewport(commands, extent, 0.0f, 1.0f);
         vkCmdSetScissor(commands, 0, 1, &area);
     }
 
-    void draw(VkCommandBuffer commands, std::size_t block_offset, IndexRanges const& ranges) const {
-        if (ranges.empty()) return;
+    void draw(VkCommandBuffer commands, std::size_t block_offset, std::span<Draw const> draws) const {
+        if (draws.empty()) return;
         auto const offset = static_cast<std::uint32_t>(block_offset);
-        VkDeviceSize const from_start = 0;
+        std::array<VkBuffer, 2> const buffers{vertices_.handle, numbers_.handle};
+        constexpr std::array<VkDeviceSize, 2> from_start{};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout, 0, 1, &descriptor_set_, 1,
                                 &offset);
-        vkCmdBindVertexBuffers(commands, 0, 1, vertices_.handle.address(), &from_start);
+        vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), from_start.data());
         vkCmdBindIndexBuffer(commands, indices_.handle, 0, VK_INDEX_TYPE_UINT32);
-        for (IndexRange const& range : ranges) vkCmdDrawIndexed(commands, range.count, 1, range.first, 0, 0);
+        for (Draw const& draw : draws)
+            vkCmdDrawIndexed(commands, draw.index_count, draw.instance_count, draw.first_index, draw.vertex_offset,
+                             draw.first_instance);
+    }
+
+    static constexpr VkClearValue far_end() {
+        VkClearValue clear{};
+        clear.depthStencil = {1.0f, 0};
+        return clear;
+    }
+
+    // A render pass with several sets of views clears none of the others' maps.
+    void clear_maps(VkCommandBuffer commands) const {
+        VkClearValue const clear = far_end();
+        begin(commands, pipelines_.depth_pass, maps_.layered, {maps_.size, maps_.size}, {&clear, 1},
+              pipelines_.per_map.get(true));
+        vkCmdEndRenderPass(commands);
+    }
+
+    // Clears its maps and draws them; with multiview they are clear.
+    void draw_group(VkCommandBuffer commands, DepthPass const& pass, DrawGroup const& group) {
+        Extent const extent{maps_.size, maps_.size};
+        VkClearValue const clear = far_end();
+        auto const map = static_cast<std::size_t>(std::countr_zero(group.maps));
+        switch (pass.way) {
+            case DrawWay::pass_per_map: {
+                std::size_t const layer =
+                    map % static_cast<std::size_t>(maps_.layers);  // a lone one serves all in turn
+                begin(commands, pipelines_.depth_pass, maps_.framebuffer[layer], extent, {&clear, 1},
+                      pipelines_.per_map.get(pass.depth_clamp));
+                draw(commands, Constants::offset_of_map(map), group.draws);
+                break;
+            }
+            case DrawWay::geometry_clones:
+            case DrawWay::instances: {
+                DepthPipelines const& pipelines =
+                    pass.way == DrawWay::instances ? pipelines_.instances : pipelines_.clones;
+                begin(commands, pipelines_.depth_pass, maps_.layered, extent, {&clear, 1},
+                      pipelines.get(pass.depth_clamp));
+                draw(commands, Constants::offset_of_maps(0), group.draws);
+                break;
+            }
+            case DrawWay::multiview: {
+                std::size_t const block = map / views_at_once_;
+                ViewsPass const& views = pipelines_.views(group.maps >> block * views_at_once_);
+                Framebuffer& framebuffer = maps_.of_views[group.maps];
+                if (framebuffer == VK_NULL_HANDLE)
+                    framebuffer =
+                        make_framebuffer(device_.get(), views.pass, extent, {maps_.views[block].address(), 1});
+                hand_over(commands, maps_.target, depth_drawn, depth_drawn);
+                begin(commands, views.pass, framebuffer, extent, {}, views.pipelines.get(pass.depth_clamp));
+                draw(commands, Constants::offset_of_maps(block), group.draws);
+                break;
+            }
+        }
+        vkCmdEndRenderPass(commands);
+    }
+
+    void begin_view(VkCommandBuffer commands, glm::vec4 const& sky) const {
+        std::array<VkClearValue, 4> clear{};
+        clear[0].color = {{sky.r, sky.g, sky.b, sky.a}};
+        clear[1].color = {{0.0f, 0.0f, 0.0f, -2.0f}};  // no point
+        clear[2].color = {{0.0f, 0.0f, 0.0f, 1.0f}};   // no normal, lit
+        clear[3] = far_end();
+        hand_over_view(commands, fresh, colour_drawn);
+        hand_over(commands, frame_.depth, fresh, depth_drawn);
+        begin(commands, pipelines_.receive_pass, frame_.framebuffer, frame_.extent, clear, pipelines_.receive);
+    }
+
+    void resume_view(VkCommandBuffer commands) const {
+        hand_over_view(commands, colour_drawn, colour_drawn);
+        hand_over(commands, frame_.depth, depth_drawn, depth_drawn);
+        begin(commands, pipelines_.receive_pass_resumed, frame_.framebuffer, frame_.extent, {}, pipelines_.receive);
+    }
+
+    void draw_view(VkCommandBuffer commands, ViewDraw const& view, std::size_t index) const {
+        set_viewport(commands, frame_.extent, view.z_begin, view.z_end);
+        draw(commands, Constants::offset_of_frame(index), view.draws);
+    }
+
+    void finish_view(VkCommandBuffer commands) const { hand_over_view(commands, colour_drawn, copied_from); }
+
+    void hand_over_view(VkCommandBuffer commands, Use from, Use to) const {
+        for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
+            hand_over(commands, *target, from, to);
     }
 
     static void copy(VkCommandBuffer commands, Target const& from, int layer, Extent extent, Buffer const& to,
@@ -308,15 +387,23 @@ private:
     }
 
     template <class Record>
-    double timed(Record const& record) const {
-        return commands_.timed(record);
+    [[nodiscard]] DrawWork timed(DrawWork work, Record const& record) const {
+        work.milliseconds = commands_.timed([&](VkCommandBuffer commands) {
+            statistics_.begin(commands);
+            record(commands);
+            statistics_.end(commands);
+        });
+        work.driver = statistics_.read(device_.get());
+        return work;
     }
 
     VulkanMistake mistake_;
     Device device_;  // dies last of all that follows
     Commands commands_;
+    std::uint32_t views_at_once_;
     Pipelines pipelines_;
-    Buffer constants_;
+    Statistics statistics_;
+    Buffer constants_, numbers_;
     DescriptorPool descriptors_;
     VkDescriptorSet descriptor_set_ = VK_NULL_HANDLE;
     Buffer vertices_, indices_;
