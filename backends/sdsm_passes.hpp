@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The compute passes that fit maps to what the eye sees, as plain data for a compute runner or a backend: their uniform
+// The compute passes that fit maps to what the eye sees, as plain data for FitPass or a compute runner: their uniform
 // block (binding 0) is shadowmath's GpuSampleFit, byte for byte, their buffers a GpuSampleState (1) and the MapConstants
 // that they make (2), their texture the eye's depth (3).
 #pragma once
 
-#include "backends/image.hpp"
-#include "backends/shaders/shader.hpp"
-
-#include <glm/vec3.hpp>
+#include "backends/backend.hpp"
 
 #include <cstddef>
 #include <vector>
 
 namespace shadowmath::backend {
-
-struct ComputeStep {
-    shaders::Shader const* shader = nullptr;
-    glm::uvec3 groups{1u};
-};
 
 // `extent` of the eye's depth. In this order, each seeing what those before it wrote; all with the same bindings.
 [[nodiscard]] std::vector<ComputeStep> sdsm_steps(Extent extent);

@@ -127,7 +127,9 @@ template <class T>
 template <class T>
 inline void fit_samples_of(Cascade<T>& cascade, SampleRays<T> const& rays, Aabb<T> const& box, Aabb<T> const& casters,
                            SampleFitOptions<T> const& options) noexcept {
-    Aabb<T> const body{box.lo + rays.eye, box.hi + rays.eye};
+    // Receivers are drawn by another pass than the depths were: their places agree to some ulp of a float.
+    T const slack = T(0x1p-18) * largest_of(box);
+    Aabb<T> const body{box.lo + rays.eye - slack, box.hi + rays.eye + slack};
     if (!(largest_of(body) <= farthest_metres<T>)) {
         cascade.map.faults |= Fault::precision_lost;
         return;

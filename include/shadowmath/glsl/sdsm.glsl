@@ -88,8 +88,10 @@ sm_SampleMap sm_no_map() {
 // lo, hi: of the samples, in light space relative to the eye; lo above hi where there are none.
 sm_SampleMap sm_fit_samples(sm_SampleFit fit, vec3 lo, vec3 hi) {
     if (!all(lessThanEqual(lo, hi)) || !all(lessThanEqual(fit.casters_lo.xyz, fit.casters_hi.xyz))) return sm_no_map();
-    precise vec3 body_lo = lo + fit.eye.xyz;
-    precise vec3 body_hi = hi + fit.eye.xyz;
+    float way = max(sm_largest_of(lo), sm_largest_of(hi));
+    precise float slack = 3.814697265625e-6 * way;
+    precise vec3 body_lo = lo + fit.eye.xyz - slack;
+    precise vec3 body_hi = hi + fit.eye.xyz + slack;
     precise vec3 body_extent = body_hi - body_lo;
     float farthest = max(sm_largest_of(body_lo), sm_largest_of(body_hi));
     if (!(farthest <= sm_farthest_metres)) return sm_no_map();
@@ -111,8 +113,7 @@ sm_SampleMap sm_fit_samples(sm_SampleFit fit, vec3 lo, vec3 hi) {
 
     float entry = sm_light_entry(fit, vec2(side[0].lo, side[1].lo), vec2(side[0].hi, side[1].hi));
     if (!(entry <= depth.y)) return sm_no_map();
-    precise float whole = (side[0].hi - side[0].lo) + (side[1].hi - side[1].lo) + (depth.y - depth.x) +
-                          max(sm_largest_of(lo), sm_largest_of(hi));
+    precise float whole = (side[0].hi - side[0].lo) + (side[1].hi - side[1].lo) + (depth.y - depth.x) + way;
     precise float deepest = depth.x - 65536.0 * whole;
     float reach = fit.flags.z != 0 ? depth.x : max(entry, deepest);
     float depth_lo = min(reach, depth.x);
