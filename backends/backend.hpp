@@ -38,12 +38,14 @@ struct DepthLayer {
     std::span<std::uint32_t const> objects;  // indices into Scene::objects: the casters, in any order
 };
 
-// How several maps are drawn. Every way gives the same maps, texel by texel; they differ in what they cost.
+// How several maps are drawn. Every way gives the same maps, texel by texel, and draws an object into those alone that
+// list it; they differ in what they cost. Where a driver rounds otherwise behind a geometry shader (llvmpipe does, in
+// the viewport), clones agree but for that rounding, and wholly if map_size is a power of two.
 enum class DrawWay {
     pass_per_map,     // one pass a map; every driver has it
     geometry_clones,  // one pass; a geometry shader clones each triangle into its maps
     instances,        // one pass; each map of an object is an instance, and the vertex shader names the layer
-    multiview,        // one pass for each set of maps that some object is drawn into; Vulkan alone
+    multiview,        // Vulkan alone. Views belong to a pass: one for each set of maps that some object is listed in
 };
 inline constexpr std::array every_way{DrawWay::pass_per_map, DrawWay::geometry_clones, DrawWay::instances,
                                       DrawWay::multiview};
@@ -107,6 +109,9 @@ struct ScenePass {
     Extent extent;
     FrameConstants frame;  // reads the maps of the last depth pass
     bool fitted = false;   // the constants of its maps are those of the last fit; the frame's are not read
+
+    // For draw_split_by_split alone: the objects that each split shows, and last those beyond; empty: all, every time.
+    std::span<std::span<std::uint32_t const> const> shown{};
 };
 
 // One compute pass of a fit.

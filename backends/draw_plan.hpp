@@ -18,7 +18,7 @@ namespace shadowmath::backend {
 
 using MapSet = std::uint32_t;  // bit i: map i
 
-// The number that an instance has, its draw's first one included: what an instanced attribute reads, in both APIs alike.
+// What an instanced attribute reads, in both APIs alike: an instance's number, counted from its draw's first_instance.
 inline constexpr auto instance_numbers = [] {
     std::array<std::uint32_t, 1u << max_maps> numbers{};
     for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
@@ -55,58 +55,75 @@ inline void append(std::vector<Draw>& draws, Object const& object, std::uint32_t
     draws.push_back({object.index_count, instance_count, object.first_index, 0, first_instance});
 }
 
-[[nodiscard]] inline std::vector<MapSet> maps_of_objects(DepthPass const& pass, std::size_t object_count) {
-    std::vector<MapSet> maps(object_count, 0u);
+// The maps that each object is listed in.
+using MapsOfObjects = std::vector<MapSet>;
+
+[[nodiscard]] inline MapsOfObjects maps_of_objects(DepthPass const& pass, std::size_t object_count) {
+    MapsOfObjects maps(object_count, 0u);
     for (std::size_t map = 0; map < pass.layers.size(); ++map)
         for (std::uint32_t const object : pass.layers[map].objects) maps[object] |= 1u << map;
     return maps;
 }
 
-// The groups of a depth pass, one after the other. views_at_once: the largest number of maps that multiview draws.
+[[nodiscard]] inline DrawGroup draws_of_map(std::uint32_t map, std::span<Object const> objects,
+                                            MapsOfObjects const& maps) {
+    DrawGroup group{1u << map, {}};
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if ((maps[i] >> map & 1u) != 0u) append(group.draws, objects[i]);
+    return group;
+}
+
+// The shader sees the set of maps as its number.
+[[nodiscard]] inline DrawGroup draws_of_clones(MapSet all, std::span<Object const> objects, MapsOfObjects const& maps) {
+    DrawGroup group{all, {}};
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (maps[i] != 0u) append(group.draws, objects[i], maps[i]);
+    return group;
+}
+
+// A run of neighbouring maps is one draw, and its instances are the maps.
+[[nodiscard]] inline DrawGroup draws_of_instances(MapSet all, std::span<Object const> objects,
+                                                  MapsOfObjects const& maps) {
+    DrawGroup group{all, {}};
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        for (MapSet rest = maps[i]; rest != 0u;) {
+            auto const first = static_cast<std::uint32_t>(std::countr_zero(rest));
+            auto const count = static_cast<std::uint32_t>(std::countr_one(rest >> first));
+            append(group.draws, objects[i], first, count);
+            rest &= ~(((1u << count) - 1u) << first);
+        }
+    return group;
+}
+
+// One group for each set that occurs, added to what is there.
+inline void append_draws_of_views(std::vector<DrawGroup>& groups, MapSet views, std::span<Object const> objects,
+                                  MapsOfObjects const& maps) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        MapSet const seen = maps[i] & views;
+        if (seen == 0u) continue;
+        auto group = std::ranges::find(groups, seen, &DrawGroup::maps);
+        if (group == groups.end()) group = groups.insert(group, DrawGroup{seen, {}});
+        append(group->draws, objects[i]);
+    }
+}
+
+// The groups of a depth pass, one after the other. Multiview draws views_at_once maps and then the next as many.
 [[nodiscard]] inline std::vector<DrawGroup> plan_draws(DepthPass const& pass, std::span<Object const> objects,
                                                        std::uint32_t views_at_once = max_maps) {
-    std::vector<MapSet> const maps = maps_of_objects(pass, objects.size());
+    MapsOfObjects const maps = maps_of_objects(pass, objects.size());
     auto const map_count = static_cast<std::uint32_t>(pass.layers.size());
-    views_at_once = std::min(views_at_once, std::uint32_t{max_maps});
+    MapSet const all = (1u << map_count) - 1u;
     std::vector<DrawGroup> groups;
-    auto const draw_per_map = [&] {
-        for (std::uint32_t map = 0; map < map_count; ++map) {
-            DrawGroup& group = groups.emplace_back(DrawGroup{1u << map, {}});
-            for (std::size_t i = 0; i < objects.size(); ++i)
-                if ((maps[i] >> map & 1u) != 0u) append(group.draws, objects[i]);
-        }
-    };
-    auto const draw_clones = [&] {
-        DrawGroup& group = groups.emplace_back(DrawGroup{(1u << map_count) - 1u, {}});
-        for (std::size_t i = 0; i < objects.size(); ++i)
-            if (maps[i] != 0u) append(group.draws, objects[i], maps[i]);
-    };
-    // A run of neighbouring maps is one draw: its instances are the maps.
-    auto const draw_instances = [&] {
-        DrawGroup& group = groups.emplace_back(DrawGroup{(1u << map_count) - 1u, {}});
-        for (std::size_t i = 0; i < objects.size(); ++i)
-            for (MapSet rest = maps[i]; rest != 0u;) {
-                auto const first = static_cast<std::uint32_t>(std::countr_zero(rest));
-                auto const count = static_cast<std::uint32_t>(std::countr_one(rest >> first));
-                append(group.draws, objects[i], first, count);
-                rest &= ~(((1u << count) - 1u) << first);
-            }
-    };
-    auto const draw_views = [&] {
-        for (std::uint32_t first = 0; first < map_count; first += views_at_once)
-            for (std::size_t i = 0; i < objects.size(); ++i) {
-                MapSet const seen = maps[i] & (((1u << views_at_once) - 1u) << first);
-                if (seen == 0u) continue;
-                auto group = std::ranges::find(groups, seen, &DrawGroup::maps);
-                if (group == groups.end()) group = groups.insert(group, DrawGroup{seen, {}});
-                append(group->draws, objects[i]);
-            }
-    };
     switch (pass.way) {
-        case DrawWay::pass_per_map: draw_per_map(); break;
-        case DrawWay::geometry_clones: draw_clones(); break;
-        case DrawWay::instances: draw_instances(); break;
-        case DrawWay::multiview: draw_views(); break;
+        case DrawWay::pass_per_map:
+            for (std::uint32_t map = 0; map < map_count; ++map) groups.push_back(draws_of_map(map, objects, maps));
+            break;
+        case DrawWay::geometry_clones: groups.push_back(draws_of_clones(all, objects, maps)); break;
+        case DrawWay::instances: groups.push_back(draws_of_instances(all, objects, maps)); break;
+        case DrawWay::multiview:
+            for (std::uint32_t first = 0; first < map_count; first += views_at_once)
+                append_draws_of_views(groups, ((1u << views_at_once) - 1u) << first, objects, maps);
+            break;
     }
     return groups;
 }

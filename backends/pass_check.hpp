@@ -71,6 +71,13 @@ namespace shadowmath::backend {
                std::to_string(view.frame.map_count) + " are read";
     if (maps.fitted || view.fitted) return "split by split: the splits of a fit are known to the device alone";
     if (view.frame.choice != MapChoice::by_depth) return "split by split: the maps are not chosen by depth";
+    if (!view.shown.empty() && view.shown.size() != maps.layers.size() + 1)
+        return "split by split: " + std::to_string(view.shown.size()) +
+               " lists of what is shown, not one a map and one";
+    for (auto const& shown : view.shown)
+        for (std::uint32_t const object : shown)
+            if (object >= object_count)
+                return "split by split: shows object " + std::to_string(object) + ", which is not there";
     return {};
 }
 

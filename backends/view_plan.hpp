@@ -57,8 +57,8 @@ struct SplitPlan {
     std::vector<ViewDraw> views;  // one for each map, to be drawn while it is there; two more for the last
 };
 
-// The slices lie end to end and fill [0, 1]: one for each map, in order, and one for what lies beyond the last, which is
-// lit. A slice with nothing in it has no draws. Last come the objects that receive nothing.
+// The slices lie end to end and fill [0, 1]: one for each map, in order, and one for what lies beyond the last, which
+// is lit. A slice with nothing in it has no draws. Last come the objects that receive nothing.
 [[nodiscard]] inline SplitPlan plan_split_by_split(DepthPass maps, ScenePass const& pass,
                                                    std::span<Object const> objects) {
     maps.way = DrawWay::pass_per_map;
@@ -67,19 +67,23 @@ struct SplitPlan {
     float z = 0.0f;
     for (int i = 0; i <= pass.frame.map_count; ++i) {
         ViewDraw slice{whole[1].frame, {}, z, 1.0f};
+        auto const at = static_cast<std::size_t>(i);
         if (i < pass.frame.map_count) {
-            MapConstants const& map = pass.frame.maps[static_cast<std::size_t>(i)];
-            slice.z_end = std::fmax(z, z_of_depth(pass.frame, map.depth_end));
+            slice.z_end = std::fmax(z, z_of_depth(pass.frame, pass.frame.maps[at].depth_end));
             slice.frame.map_count = 1;
             slice.frame.first_map = i;
-            slice.frame.maps[0] = map;
             // The clipper has chosen the map: the shader need not ask, nor round to the other side.
-            slice.frame.maps[0].depth_end = slice.frame.maps[0].blend_begin = std::numeric_limits<float>::max();
+            MapConstants& map = slice.frame.maps[0] = pass.frame.maps[at];
+            map.depth_end = map.blend_begin = std::numeric_limits<float>::max();
         }
         z = slice.z_end;
         if (slice.z_begin < slice.z_end) {
             slice.frame.clip_from_world = cut(pass.frame.clip_from_world, slice.z_begin, slice.z_end);
-            slice.draws = whole[0].draws;
+            if (pass.shown.empty())
+                slice.draws = whole[0].draws;
+            else
+                for (std::uint32_t const object : pass.shown[at])
+                    if (objects[object].receives) append(slice.draws, objects[object]);
         }
         plan.views.push_back(std::move(slice));
     }

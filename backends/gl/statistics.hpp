@@ -24,17 +24,18 @@ public:
     [[nodiscard]] DriverCount end() const {
         for (GLenum const what : counted) gl_.EndQuery(what);
         std::array<GLuint64, counted.size()> n{};
-        for (std::size_t i = 0; i < counted.size(); ++i)
-            gl_.GetQueryObjectui64v(queries_[i], GL_QUERY_RESULT, &n[i]);
+        for (std::size_t i = 0; i < counted.size(); ++i) gl_.GetQueryObjectui64v(queries_[i], GL_QUERY_RESULT, &n[i]);
         return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
     }
 
 private:
-    static constexpr std::array<GLenum, 7> counted{
-        GL_VERTICES_SUBMITTED,         GL_PRIMITIVES_SUBMITTED,
-        GL_VERTEX_SHADER_INVOCATIONS,  GL_GEOMETRY_SHADER_INVOCATIONS,
-        GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED, GL_CLIPPING_INPUT_PRIMITIVES,
-        GL_CLIPPING_OUTPUT_PRIMITIVES};
+    static constexpr std::array<GLenum, 7> counted{GL_VERTICES_SUBMITTED,
+                                                   GL_PRIMITIVES_SUBMITTED,
+                                                   GL_VERTEX_SHADER_INVOCATIONS,
+                                                   GL_GEOMETRY_SHADER_INVOCATIONS,
+                                                   GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED,
+                                                   GL_CLIPPING_INPUT_PRIMITIVES,
+                                                   GL_CLIPPING_OUTPUT_PRIMITIVES};
 
     Procs const& gl_;
     std::array<Query, counted.size()> queries_;

@@ -39,8 +39,8 @@ struct EyeDepth {
 };
 
 [[nodiscard]] EyeDepth make_eye_depth(Device const& device, Pipelines const& pipelines, Extent extent);
-[[nodiscard]] Maps make_maps(Device const& device, Pipelines const& pipelines, int size, int layers,
-                             int views_at_once, VkImageUsageFlags usage);
+[[nodiscard]] Maps make_maps(Device const& device, Pipelines const& pipelines, int size, int layers, int views_at_once,
+                             VkImageUsageFlags usage);
 [[nodiscard]] FrameTargets make_frame(Device const& device, Pipelines const& pipelines, Extent extent);
 
 }  // namespace shadowmath::backend::vk

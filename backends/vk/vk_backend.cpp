@@ -6,6 +6,7 @@
 #include "backends/vk/barrier.hpp"
 #include "backends/vk/commands.hpp"
 #include "backends/vk/compute.hpp"
+#include "backends/vk/descriptors.hpp"
 #include "backends/vk/statistics.hpp"
 #include "backends/vk/targets.hpp"
 
@@ -26,14 +27,14 @@ using namespace vk;
 class VulkanBackend final : public Backend {
 public:
     explicit VulkanBackend(VulkanOptions const& options)
-        : mistake_(options.mistake), device_(options), commands_(device_),
+        : mistake_(options.mistake), device_(options),
           views_at_once_(std::min(device_.abilities().views_at_once, std::uint32_t{max_maps})), pipelines_(device_),
-          compute_(device_, commands_), statistics_(device_),
+          commands_(device_), compute_(device_, commands_), statistics_(device_),
           constants_(make_host_buffer(device_, sizeof(Constants),
                                       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
-          numbers_(make_host_buffer(device_, sizeof(instance_numbers), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)) {
+          numbers_(make_host_buffer(device_, sizeof(instance_numbers), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+          descriptors_(device_.get(), pipelines_.set_layout, constants_, sizeof(FrameBlock)) {
         std::memcpy(numbers_.mapped, instance_numbers.data(), sizeof(instance_numbers));
-        make_descriptors();
         prepare_maps(1, 1);  // the receiver's binding always has an image
         if (views_at_once_ > 1u && !second_view_works()) views_at_once_ = 1u;
         if (mistake_ == VulkanMistake::leak) Pipelines(device_).sampler.forget();
@@ -156,7 +157,7 @@ public:
         Use const reading =
             mistake_ == VulkanMistake::copy_without_barrier ? unsynchronised_to(copied_from) : copied_from;
         Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             hand_over(commands, maps_.target, depth_sampled, reading);
             copy(commands, maps_.target, layer, image.extent, staging, 0);
             hand_over(commands, maps_.target, copied_from, depth_sampled);
@@ -173,7 +174,7 @@ public:
         VkDeviceSize const geometry = byte_count(frame.position);
         Buffer const staging =
             make_host_buffer(device_, 2 * geometry + byte_count(frame.colour), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             copy(commands, frame_.position, 0, extent, staging, 0);
             copy(commands, frame_.normal, 0, extent, staging, geometry);
             copy(commands, frame_.colour, 0, extent, staging, 2 * geometry);
@@ -190,7 +191,7 @@ public:
         Image<float> image(eye_.extent);
         if (image.pixels.empty()) return image;
         Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             hand_over(commands, eye_.target, computed_with, copied_from);
             copy(commands, eye_.target, 0, image.extent, staging, 0);
             hand_over(commands, eye_.target, copied_from, computed_with);
@@ -215,8 +216,8 @@ private:
         return image.pixels.size() * sizeof(Pixel);
     }
 
-    // Mesa 22.3's software driver transforms every view of a draw and rasterises them all into the first one's map. What
-    // is left of multiview is then one view at a time. So two views are drawn and looked at.
+    // Mesa 22.3's software driver transforms every view of a draw, but rasterises them all into the first one's map. So
+    // two are drawn and looked at; where the second is missing, one view at once is what multiview comes to.
     bool second_view_works() {
         Scene scene;
         for (glm::vec2 const corner : {glm::vec2(-1, -1), glm::vec2(3, -1), glm::vec2(-1, 3)})
@@ -233,38 +234,6 @@ private:
         return works;
     }
 
-    void make_descriptors() {
-        std::array<VkDescriptorPoolSize, 2> const sizes{
-            {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}}};
-        VkDescriptorPoolCreateInfo pool{};
-        pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-        pool.maxSets = 1;
-        pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-        pool.pPoolSizes = sizes.data();
-        descriptors_ = {device_.get(), vkCreateDescriptorPool, pool, "make a descriptor pool"};
-        VkDescriptorSetAllocateInfo set{};
-        set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-        set.descriptorPool = descriptors_;
-        set.descriptorSetCount = 1;
-        set.pSetLayouts = pipelines_.set_layout.address();
-        demand(vkAllocateDescriptorSets(device_.get(), &set, &descriptor_set_), "make a descriptor set");
-
-        VkDescriptorBufferInfo const block{constants_.handle, 0, sizeof(FrameBlock)};
-        VkWriteDescriptorSet write = write_binding(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC);
-        write.pBufferInfo = &block;
-        vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
-    }
-
-    VkWriteDescriptorSet write_binding(std::uint32_t binding, VkDescriptorType type) const {
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = descriptor_set_;
-        write.dstBinding = binding;
-        write.descriptorCount = 1;
-        write.descriptorType = type;
-        return write;
-    }
-
     void fill_buffers(Scene const& scene) {
         VkDeviceSize const vertex_bytes = scene.vertices.size() * sizeof(Vertex);
         VkDeviceSize const index_bytes = scene.indices.size() * sizeof(std::uint32_t);
@@ -275,7 +244,7 @@ private:
                                        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         indices_ = make_device_buffer(device_, index_bytes,
                                       VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             VkBufferCopy const of_vertices{0, 0, vertex_bytes}, of_indices{vertex_bytes, 0, index_bytes};
             vkCmdCopyBuffer(commands, staging.handle, vertices_.handle, 1, &of_vertices);
             vkCmdCopyBuffer(commands, staging.handle, indices_.handle, 1, &of_indices);
@@ -289,12 +258,9 @@ private:
         VkImageUsageFlags usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
         if (mistake_ != VulkanMistake::usage_forgotten) usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
         Maps maps = make_maps(device_, pipelines_, size, layers, static_cast<int>(views_at_once_), usage);
-        submit([&](VkCommandBuffer commands) { hand_over(commands, maps.target, fresh, depth_sampled); });
+        commands_.submit([&](VkCommandBuffer commands) { hand_over(commands, maps.target, fresh, depth_sampled); });
 
-        VkDescriptorImageInfo const image{pipelines_.sampler, maps.all, depth_sampled.layout};
-        VkWriteDescriptorSet write = write_binding(1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-        write.pImageInfo = &image;
-        vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
+        descriptors_.read_maps(pipelines_.sampler, maps.all, depth_sampled.layout);
         maps_ = std::move(maps);
     }
 
@@ -348,8 +314,8 @@ private:
         auto const offset = static_cast<std::uint32_t>(block_offset);
         std::array<VkBuffer, 2> const buffers{vertices_.handle, numbers_.handle};
         constexpr std::array<VkDeviceSize, 2> from_start{};
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout, 0, 1, &descriptor_set_, 1,
-                                &offset);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout, 0, 1,
+                                descriptors_.address(), 1, &offset);
         vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), from_start.data());
         vkCmdBindIndexBuffer(commands, indices_.handle, 0, VK_INDEX_TYPE_UINT32);
         for (Draw const& draw : draws)
@@ -363,7 +329,7 @@ private:
         return clear;
     }
 
-    // A render pass with several sets of views clears none of the others' maps.
+    // A render pass clears the maps of its views alone.
     void clear_maps(VkCommandBuffer commands) const {
         VkClearValue const clear = far_end();
         begin(commands, pipelines_.depth_pass, maps_.layered, {maps_.size, maps_.size}, {&clear, 1},
@@ -371,42 +337,44 @@ private:
         vkCmdEndRenderPass(commands);
     }
 
+    struct MapTarget {
+        VkRenderPass render_pass;
+        VkFramebuffer framebuffer;
+        DepthPipelines const& pipelines;
+        std::size_t block_offset;
+    };
+
+    MapTarget target_of(DrawWay way, MapSet maps) {
+        auto const first = static_cast<std::size_t>(std::countr_zero(maps));
+        switch (way) {
+            case DrawWay::geometry_clones:
+                return {pipelines_.depth_pass, maps_.layered, pipelines_.clones, Constants::offset_of_maps(0)};
+            case DrawWay::instances:
+                return {pipelines_.depth_pass, maps_.layered, pipelines_.instances, Constants::offset_of_maps(0)};
+            case DrawWay::multiview: {
+                std::size_t const block = first / views_at_once_;
+                ViewsPass const& views = pipelines_.views(maps >> block * views_at_once_);
+                Framebuffer& framebuffer = maps_.of_views[maps];
+                if (framebuffer == VK_NULL_HANDLE)
+                    framebuffer = make_framebuffer(device_.get(), views.pass, {maps_.size, maps_.size},
+                                                   {maps_.views[block].address(), 1});
+                return {views.pass, framebuffer, views.pipelines, Constants::offset_of_maps(block)};
+            }
+            case DrawWay::pass_per_map: break;
+        }
+        std::size_t const layer =
+            first % static_cast<std::size_t>(maps_.layers);  // a lone layer serves every map in turn
+        return {pipelines_.depth_pass, maps_.framebuffer[layer], pipelines_.per_map, Constants::offset_of_map(first)};
+    }
+
     // Clears its maps and draws them; with multiview they are clear.
     void draw_group(VkCommandBuffer commands, DepthPass const& pass, DrawGroup const& group) {
-        Extent const extent{maps_.size, maps_.size};
         VkClearValue const clear = far_end();
-        auto const map = static_cast<std::size_t>(std::countr_zero(group.maps));
-        switch (pass.way) {
-            case DrawWay::pass_per_map: {
-                std::size_t const layer =
-                    map % static_cast<std::size_t>(maps_.layers);  // a lone one serves all in turn
-                begin(commands, pipelines_.depth_pass, maps_.framebuffer[layer], extent, {&clear, 1},
-                      pipelines_.per_map.get(pass.depth_clamp));
-                draw(commands, Constants::offset_of_map(map), group.draws);
-                break;
-            }
-            case DrawWay::geometry_clones:
-            case DrawWay::instances: {
-                DepthPipelines const& pipelines =
-                    pass.way == DrawWay::instances ? pipelines_.instances : pipelines_.clones;
-                begin(commands, pipelines_.depth_pass, maps_.layered, extent, {&clear, 1},
-                      pipelines.get(pass.depth_clamp));
-                draw(commands, Constants::offset_of_maps(0), group.draws);
-                break;
-            }
-            case DrawWay::multiview: {
-                std::size_t const block = map / views_at_once_;
-                ViewsPass const& views = pipelines_.views(group.maps >> block * views_at_once_);
-                Framebuffer& framebuffer = maps_.of_views[group.maps];
-                if (framebuffer == VK_NULL_HANDLE)
-                    framebuffer =
-                        make_framebuffer(device_.get(), views.pass, extent, {maps_.views[block].address(), 1});
-                hand_over(commands, maps_.target, depth_drawn, depth_drawn);
-                begin(commands, views.pass, framebuffer, extent, {}, views.pipelines.get(pass.depth_clamp));
-                draw(commands, Constants::offset_of_maps(block), group.draws);
-                break;
-            }
-        }
+        MapTarget const to = target_of(pass.way, group.maps);
+        if (pass.way == DrawWay::multiview) hand_over(commands, maps_.target, depth_drawn, depth_drawn);
+        begin(commands, to.render_pass, to.framebuffer, {maps_.size, maps_.size}, {&clear, 1},
+              to.pipelines.get(pass.depth_clamp));
+        draw(commands, to.block_offset, group.draws);
         vkCmdEndRenderPass(commands);
     }
 
@@ -449,11 +417,6 @@ private:
     }
 
     template <class Record>
-    void submit(Record const& record) const {
-        commands_.submit(record);
-    }
-
-    template <class Record>
     [[nodiscard]] DrawWork timed(DrawWork work, Record const& record) const {
         work.milliseconds = commands_.timed([&](VkCommandBuffer commands) {
             statistics_.begin(commands);
@@ -466,14 +429,13 @@ private:
 
     VulkanMistake mistake_;
     Device device_;  // dies last of all that follows
-    Commands commands_;
     std::uint32_t views_at_once_;
     Pipelines pipelines_;
+    Commands commands_;
     Compute compute_;
     Statistics statistics_;
     Buffer constants_, numbers_;
-    DescriptorPool descriptors_;
-    VkDescriptorSet descriptor_set_ = VK_NULL_HANDLE;
+    Descriptors descriptors_;
     Buffer vertices_, indices_;
     std::vector<Object> objects_;
     Maps maps_;

@@ -180,8 +180,8 @@ Timing timed(backend::Backend& backend, MapSet const& set, Extent extent) {
     std::vector<backend::DepthLayer> layers;
     for (Map const& map : set.maps) layers.push_back({glm::mat4(map.clip_from_world), map.casters});
     Timing timing;
-    timing.depth_ms = backend.draw_depth({set.map_size, layers, true});
-    timing.receive_ms = backend.draw_scene({extent, set.frame});
+    timing.depth_ms = backend.draw_depth({set.map_size, layers, true}).milliseconds;
+    timing.receive_ms = backend.draw_scene({extent, set.frame}).milliseconds;
     return timing;
 }
 

@@ -29,8 +29,8 @@ Rendered render(backend::Backend& backend, MapSet const& maps, backend::Extent e
     rendered.ms_receive = std::numeric_limits<double>::max();
     for (int i = 0; i < runs; ++i) {
         if (!layers.empty())
-            rendered.ms_depth = std::min(rendered.ms_depth, backend.draw_depth({maps.map_size, layers}));
-        rendered.ms_receive = std::min(rendered.ms_receive, backend.draw_scene({extent, maps.frame}));
+            rendered.ms_depth = std::min(rendered.ms_depth, backend.draw_depth({maps.map_size, layers}).milliseconds);
+        rendered.ms_receive = std::min(rendered.ms_receive, backend.draw_scene({extent, maps.frame}).milliseconds);
     }
     rendered.frame = backend.read_frame();
     return rendered;

@@ -45,22 +45,11 @@ Aabb<double> box_of_all(Scene const& scene, bool backend::Object::*role) {
     return all;
 }
 
-// True unless all corners lie outside one plane of the clip volume. Depth nearer than the map's range counts as inside:
-// such casters are clamped onto it, not lost.
-bool may_touch(glm::dmat4 const& clip_from_world, Aabb<double> const& box) {
-    int outside[6] = {};
-    for (auto const& corner : corners(box)) {
-        glm::dvec4 const p = clip_from_world * glm::dvec4(corner, 1.0);
-        outside[0] += p.x<-p.w, outside[1] += p.x> p.w, outside[2] += p.y<-p.w, outside[3] += p.y> p.w;
-        outside[4] += p.w <= 0.0, outside[5] += p.z > p.w;
-    }
-    return std::none_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
-}
-
-std::vector<std::uint32_t> casters_in(glm::dmat4 const& clip_from_world, Scene const& scene) {
+std::vector<std::uint32_t> casters_in(ShadowMap<double> const& map, Scene const& scene) {
+    CasterMaps<double> const maps = caster_maps(&map, 1);
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-        if (scene.objects[i].casts && may_touch(clip_from_world, box_of(scene.objects[i]))) indices.push_back(i);
+        if (scene.objects[i].casts && caster_mask(maps, box_of(scene.objects[i])) != 0) indices.push_back(i);
     return indices;
 }
 
@@ -97,7 +86,7 @@ void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<
     constants.bias_w = float(bias.per_inverse_w);
     constants.bias_slope_texels = float(bias.slope_texels);
     constants.slope_limit = float(bias.slope_limit);
-    set.maps.push_back({map.clip_from_world, casters_in(map.clip_from_world, in.scene)});
+    set.maps.push_back({map.clip_from_world, casters_in(map, in.scene)});
     set.frame.map_count = int(set.maps.size());
 }
 
@@ -138,10 +127,14 @@ ShadowMap<double> standard_map(Input const& in) {
 
 // Height of the ground for the thesis' shadow plane: the median foot of the objects in view.
 double ground_height(Input const& in) {
-    glm::dmat4 const eye = clip_from_world(in.seen, clip);
+    ShadowMap<double> screen;
+    screen.clip_from_world = clip_from_world(in.seen, clip);
+    screen.clip = clip;
+    screen.visible = true;
+    CasterMaps<double> const seen = caster_maps(&screen, 1);
     std::vector<double> feet;
     for (auto const& object : in.scene.objects)
-        if (object.receives && may_touch(eye, box_of(object))) feet.push_back(double(object.lo.y));
+        if (object.receives && caster_mask(seen, box_of(object)) != 0) feet.push_back(double(object.lo.y));
     if (feet.empty()) return 0.0;
     auto const middle = feet.begin() + std::ptrdiff_t(feet.size() / 2);
     std::nth_element(feet.begin(), middle, feet.end());

@@ -24,6 +24,7 @@
 #include <shadowmath/reach.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/splits.hpp>
+#include <shadowmath/wide.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -47,9 +48,9 @@ struct MapRange {
 // The shafts of up to max_caster_maps maps, as add_map gives them to caster_mask.
 template <class T>
 struct CasterMaps {
-    // Up to four maps that look the same way. A point p is inside where half_normal . 2 p >= least, for all five sides.
+    // Up to four maps that look the same way. A point p is inside where normal . p >= least, for all five sides.
     struct Bundle {
-        Vec3<T> half_normal[5];  // left, right, bottom, top, far
+        Vec3<T> normal[5];  // left, right, bottom, top, far
         T least[5][4] = {};
         MapMask bit[4] = {};  // 0: no map here
     };
@@ -71,33 +72,25 @@ struct BoxArrays {
 
 namespace detail {
 
-// All numbers, and of size below 2^60 (which is above farthest_metres). By their bits (finite.hpp), and without a
-// branch among them, so that many cost little.
-[[nodiscard]] inline bool all_in_reach(float const* values, int count) noexcept {
-    std::uint32_t beyond = 0;
-    for (int i = 0; i < count; ++i) {
-        std::uint32_t bits;
-        std::memcpy(&bits, values + i, sizeof bits);
-        beyond |= (bits & 0x7fffffffu) + (0x80000000u - 0x5d800000u);
-    }
-    return (beyond & 0x80000000u) == 0;
+// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
+// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
+[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x80000000u - 0x5d800000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x8000000000000000u - 0x43b0000000000000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
+    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
 }
 
-[[nodiscard]] inline bool all_in_reach(double const* values, int count) noexcept {
-    constexpr std::uint64_t sign = 0x8000000000000000u;
-    std::uint64_t beyond = 0;
-    for (int i = 0; i < count; ++i) {
-        std::uint64_t bits;
-        std::memcpy(&bits, values + i, sizeof bits);
-        beyond |= (bits & ~sign) + (sign - 0x43b0000000000000u);
-    }
-    return (beyond & sign) == 0;
-}
-
-[[nodiscard]] inline bool all_in_reach(long double const* values, int count) noexcept {
-    for (int i = 0; i < count; ++i)
-        if (!all_finite(values + i, 1) || !(std::abs(values[i]) < 0x1p60L)) return false;
-    return true;
+template <class T>
+[[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
+    return all_finite(v) && largest_of(v) < T(0x1p60);
 }
 
 // lo > hi, infinite ends included; false where one is NaN, and no signal of one.
@@ -108,8 +101,8 @@ template <class T>
            lo > hi;
 }
 
-// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates. 2 for sum and
-// difference of lo and hi, 6 for the roundings of a dot product and its normal, 4 for a normal shared by maps.
+// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates: 6 epsilon for
+// the roundings of growing, of a dot product and of its normal, 4 for a normal shared by maps; the rest is room.
 template <class T>
 inline constexpr T box_slack = T(16) * std::numeric_limits<T>::epsilon();
 
@@ -125,25 +118,29 @@ template <class T>
                    offset < -beyond_all ? -beyond_all : (offset > beyond_all ? beyond_all : offset));
 }
 
-// How far a box reaches along the normal of a side. x2, y2, z2: the sum of its ends, which is twice its centre.
+// How far something reaches along the five normals of a bundle.
 template <class T>
-[[nodiscard]] inline T reach_of(Vec3<T> const& half_normal, T x2, T y2, T z2, T width, T height, T depth) noexcept {
-    return half_normal.x * x2 + half_normal.y * y2 + half_normal.z * z2 + std::abs(half_normal.x) * width +
-           std::abs(half_normal.y) * height + std::abs(half_normal.z) * depth;
-}
+struct Reaches {
+    T left, right, bottom, top, last;
+};
 
 // The maps of one bundle that something with these reaches is inside of.
+// NOTE: all is written out, with & for &&: at -O2 compilers unroll no inner loop, and do many boxes at once only where
+// there is neither loop nor branch.
 template <class T>
-[[nodiscard]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
-                                               T const (&reach)[5]) noexcept {
-    std::uint32_t bits = 0;
-    for (int place = 0; place < 4; ++place) {
-        bool inside = true;
-        // NOTE: & and not &&: a branch would keep compilers from doing many boxes at once.
-        for (int side = 0; side < 5; ++side) inside = inside & (reach[side] >= bundle.least[side][place]);
-        bits |= inside ? std::uint32_t(bundle.bit[place]) : 0u;
-    }
-    return bits;
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bit_if_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                                                     Reaches<T> const& reach, int place) noexcept {
+    bool const inside = (reach.left >= bundle.least[0][place]) & (reach.right >= bundle.least[1][place]) &
+                        (reach.bottom >= bundle.least[2][place]) & (reach.top >= bundle.least[3][place]) &
+                        (reach.last >= bundle.least[4][place]);
+    return inside ? bundle.bit[place] : 0u;
+}
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                                                   Reaches<T> const& reach) noexcept {
+    return bit_if_inside<T>(bundle, reach, 0) | bit_if_inside<T>(bundle, reach, 1) |
+           bit_if_inside<T>(bundle, reach, 2) | bit_if_inside<T>(bundle, reach, 3);
 }
 
 template <class T>
@@ -172,7 +169,7 @@ inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
     int side = 0;
     for (Vec4<T> const& inner : {w + x, w - x, w + y, w - y, last}) {
         Vec4<T> const plane = detail::side_plane(inner);
-        own.half_normal[side] = Vec3<T>(plane) * T(0.5);
+        own.normal[side] = Vec3<T>(plane);
         own.least[side++][0] = -plane.w;
     }
     own.bit[0] = bit;
@@ -180,10 +177,10 @@ inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
         auto& bundle = maps.bundle[maps.bundle_count - 1];
         T differ = T(0);
         for (side = 0; side < 5; ++side)
-            differ = std::fmax(differ, detail::largest_of(bundle.half_normal[side] - own.half_normal[side]));
+            differ = std::fmax(differ, detail::largest_of(bundle.normal[side] - own.normal[side]));
         int place = 0;
         while (place < 4 && bundle.bit[place] != 0) ++place;
-        if (place < 4 && differ <= T(2) * std::numeric_limits<T>::epsilon()) {
+        if (place < 4 && differ <= T(4) * std::numeric_limits<T>::epsilon()) {
             for (side = 0; side < 5; ++side) bundle.least[side][place] = own.least[side][0];
             bundle.bit[place] = bit;
             return;
@@ -207,22 +204,23 @@ template <class T>
 template <class T>
 [[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Aabb<T> const& box) noexcept {
     Vec3<T> const &lo = box.lo, &hi = box.hi;
-    if (!detail::all_in_reach(&lo.x, 3) || !detail::all_in_reach(&hi.x, 3)) {
+    if (!detail::all_in_reach(lo) || !detail::all_in_reach(hi)) {
         for (int axis = 0; axis < 3; ++axis)
             if (detail::are_crossed(lo[axis], hi[axis])) return 0;
         return detail::every_bit(maps);
     }
     if (lo.x > hi.x || lo.y > hi.y || lo.z > hi.z) return 0;
     T const sizes = std::abs(lo.x) + std::abs(hi.x) + std::abs(lo.y) + std::abs(hi.y) + std::abs(lo.z) + std::abs(hi.z);
-    Vec3<T> const centre2 = lo + hi, extent = hi - lo + Vec3<T>(detail::box_slack<T> * sizes);
+    Vec3<T> const grown(detail::box_slack<T> * sizes), first = lo - grown, last = hi + grown;
     std::uint32_t mask = 0;
     for (int b = 0; b < maps.bundle_count; ++b) {
         auto const& bundle = maps.bundle[b];
-        T reach[5];
-        for (int side = 0; side < 5; ++side)
-            reach[side] = detail::reach_of(bundle.half_normal[side], centre2.x, centre2.y, centre2.z, extent.x,
-                                           extent.y, extent.z);
-        mask |= detail::bits_inside<T>(bundle, reach);
+        auto const reach = [&](int side) {
+            Vec3<T> const& normal = bundle.normal[side];
+            return normal.x * (normal.x > T(0) ? last.x : first.x) + normal.y * (normal.y > T(0) ? last.y : first.y) +
+                   normal.z * (normal.z > T(0) ? last.z : first.z);
+        };
+        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
     }
     return static_cast<MapMask>(mask);
 }
@@ -232,17 +230,17 @@ template <class T>
 [[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Sphere<T> const& sphere) noexcept {
     Vec3<T> const& centre = sphere.center;
     if (detail::are_crossed(T(0), sphere.radius)) return 0;
-    if (!detail::all_in_reach(&centre.x, 3) || !detail::all_in_reach(&sphere.radius, 1)) return detail::every_bit(maps);
+    if (!detail::all_in_reach(centre) || !detail::all_in_reach(Vec3<T>(sphere.radius))) return detail::every_bit(maps);
     T const sizes = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + sphere.radius;
-    T const diameter = T(2) * sphere.radius + detail::box_slack<T> * sizes;
+    T const radius = sphere.radius + detail::box_slack<T> * sizes;
     std::uint32_t mask = 0;
     for (int b = 0; b < maps.bundle_count; ++b) {
         auto const& bundle = maps.bundle[b];
-        T reach[5];
-        for (int side = 0; side < 5; ++side)
-            reach[side] = T(2) * glm::dot(bundle.half_normal[side], centre) +
-                          diameter * std::sqrt(glm::dot(bundle.half_normal[side], bundle.half_normal[side]));
-        mask |= detail::bits_inside<T>(bundle, reach);
+        auto const reach = [&](int side) {
+            Vec3<T> const& normal = bundle.normal[side];
+            return glm::dot(normal, centre) + radius * std::sqrt(glm::dot(normal, normal));
+        };
+        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
     }
     return static_cast<MapMask>(mask);
 }
@@ -251,37 +249,61 @@ namespace detail {
 
 inline constexpr int boxes_at_once = 64;
 
-// Straight loops of constant length over one bundle, for a compiler to turn into vector code: see caster_masks.
+// One block of boxes; does nothing where a box is not in reach, and says so.
 template <class T>
-inline void mask_block(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, MapMask* masks) noexcept {
-    constexpr int n = boxes_at_once;
-    T x2[n], y2[n], z2[n], width[n], height[n], depth[n];
-    std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
-    for (int i = 0; i < n; ++i) {
-        T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
-        T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
-        T const grown = box_slack<T> * (std::abs(lo_x) + std::abs(hi_x) + std::abs(lo_y) + std::abs(hi_y) +
-                                        std::abs(lo_z) + std::abs(hi_z));
-        full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
-        mask[i] = 0;
-        x2[i] = lo_x + hi_x;
-        y2[i] = lo_y + hi_y;
-        z2[i] = lo_z + hi_z;
-        width[i] = hi_x - lo_x + grown;
-        height[i] = hi_y - lo_y + grown;
-        depth[i] = hi_z - lo_z + grown;
-    }
-    for (int b = 0; b < maps.bundle_count; ++b) {
-        typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
+struct MaskBlock {
+    CasterMaps<T> const& maps;
+    BoxArrays<T> const& boxes;
+    MapMask* masks;
+    bool& in_reach;
+
+    [[gnu::always_inline]] inline void operator()() const noexcept {
+        constexpr int n = boxes_at_once;
+        T grown[n], first_x[n], first_y[n], first_z[n], last_x[n], last_y[n], last_z[n];
+        std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
+        decltype(beyond_reach(T(0))) beyond = 0;
         for (int i = 0; i < n; ++i) {
-            T reach[5];
-            for (int side = 0; side < 5; ++side)
-                reach[side] = reach_of(bundle.half_normal[side], x2[i], y2[i], z2[i], width[i], height[i], depth[i]);
-            mask[i] |= bits_inside<T>(bundle, reach);
+            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
+                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
+            beyond |= beyond_reach(sizes);
+            grown[i] = box_slack<T> * sizes;
+            mask[i] = 0;
         }
+        in_reach = beyond >> (8 * sizeof beyond - 1) == 0;
+        if (!in_reach) return;
+        for (int i = 0; i < n; ++i) {
+            T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
+            T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
+            full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
+            first_x[i] = lo_x - grown[i];
+            first_y[i] = lo_y - grown[i];
+            first_z[i] = lo_z - grown[i];
+            last_x[i] = hi_x + grown[i];
+            last_y[i] = hi_y + grown[i];
+            last_z[i] = hi_z + grown[i];
+        }
+        for (int b = 0; b < maps.bundle_count; ++b) {
+            typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
+            struct Side {
+                Vec3<T> normal;
+                T const *x, *y, *z;  // the end of the boxes that lies farther along it
+                [[gnu::always_inline]] T operator()(int i) const noexcept {
+                    return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
+                }
+            };
+            auto const side_of = [&](Vec3<T> const& normal) {
+                return Side{normal, normal.x > T(0) ? last_x : first_x, normal.y > T(0) ? last_y : first_y,
+                            normal.z > T(0) ? last_z : first_z};
+            };
+            Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
+            Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
+            Side const end = side_of(bundle.normal[4]);
+            for (int i = 0; i < n; ++i)
+                mask[i] |= bits_inside<T>(bundle, {left(i), right(i), bottom(i), top(i), end(i)});
+        }
+        for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
     }
-    for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
-}
+};
 
 }  // namespace detail
 
@@ -298,16 +320,13 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         return BoxArrays<T>{boxes.lo_x + i, boxes.lo_y + i, boxes.lo_z + i,
                             boxes.hi_x + i, boxes.hi_y + i, boxes.hi_z + i};
     };
-    for (int begin = 0; begin < count; begin += detail::boxes_at_once) {
+    constexpr int n = detail::boxes_at_once;
+    for (int begin = 0; begin < count; begin += n) {
         BoxArrays<T> const block = from(begin);
-        int const left = count - begin, length = left < detail::boxes_at_once ? left : detail::boxes_at_once;
-        bool const in_reach = detail::all_in_reach(block.lo_x, length) && detail::all_in_reach(block.lo_y, length) &&
-                              detail::all_in_reach(block.lo_z, length) && detail::all_in_reach(block.hi_x, length) &&
-                              detail::all_in_reach(block.hi_y, length) && detail::all_in_reach(block.hi_z, length);
-        if (in_reach && length == detail::boxes_at_once) {
-            detail::mask_block(maps, block, masks + begin);
-            continue;
-        }
+        int const length = count - begin < n ? count - begin : n;
+        bool in_reach = false;
+        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
+        if (in_reach) continue;
         for (int i = 0; i < length; ++i)
             masks[begin + i] = caster_mask(maps, Aabb<T>{Vec3<T>(block.lo_x[i], block.lo_y[i], block.lo_z[i]),
                                                          Vec3<T>(block.hi_x[i], block.hi_y[i], block.hi_z[i])});

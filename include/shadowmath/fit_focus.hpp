@@ -44,7 +44,7 @@ struct Focus {
 // Every point of the slice inside `receivers` and below anything inside `casters` is in focus, and so is everything of
 // `casters` between it and the light; `padding` widens the casters' half-spaces only. Depth is no more than what those
 // span, but for rounding. Not visible: a spot, a light or view with faults, an endless slice, or something beyond 1e12
-// m; and where nothing is seen or nothing casts on it. Casters higher above the slice than 1024 times its size, and
+// m; and where nothing is seen or nothing casts on it. Casters higher above the slice than 65536 times its size, and
 // not below that, are cut.
 template <class T>
 [[nodiscard]] inline Focus<T> focus_of(ViewVolume<T> const& slice, Light<T> const& light, Aabb<T> const& casters,
@@ -52,46 +52,45 @@ template <class T>
     Focus<T> focus;
     constexpr T eps = std::numeric_limits<T>::epsilon();
     constexpr T farthest = T(1e12);
+    bool const flat = slice.kind == ViewKind::orthographic;
+    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
+                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const spread = flat ? T(1) : slice.z_far;
     bool const usable = light.kind == LightKind::directional && !unusable(light) && !faults_of(slice).any() &&
                         !is_positive_infinity(&slice.z_far) && all_finite(casters) && all_finite(receivers) &&
                         !is_empty(casters) && !is_empty(receivers);
-    if (!usable) return focus;
-    Vec3<T> const eye = slice.pose.position;
-    Aabb<T> const seen = bounds_of(corners(slice));
-    if (!all_finite(seen) || !(detail::largest_of(seen) <= farthest) || !(detail::largest_of(eye) <= farthest))
+    if (!usable || !(side <= farthest / std::fmax(spread, T(1))) || !(slice.z_far <= farthest) ||
+        !(detail::largest_of(slice.pose.position) <= farthest))
         return focus;
+    Vec3<T> const eye = slice.pose.position, travel = light.direction;
+    Vec4<T> const down(travel, T(0));
+    Aabb<T> const seen = bounds_of(corners(slice));
     T const size = detail::largest_of(seen.hi - seen.lo);
-    // Sixteen roundings stand behind a vertex: a plane, a cut, and the eye's own place.
-    T const slack = T(16) * eps * (size + detail::largest_of(seen) + detail::largest_of(eye));
-    Vec4<T> const down(light.direction, T(0));
-
-    Vec3<T> const reach(T(1024) * size);
-    Aabb<T> const near_enough{seen.lo - reach, seen.hi + reach};
-    Aabb<T> const cast_box = intersect(casters, near_enough);
+    Vec3<T> const reach(T(65536) * size);
+    Aabb<T> const cast_box = intersect(casters, Aabb<T>{seen.lo - reach, seen.hi + reach});
     if (is_empty(cast_box)) return focus;
+    // Sixteen roundings stand behind a vertex: a plane, a cut, and the eye's own place. Those of casters are larger.
+    T const slack = T(16) * eps * (size + detail::largest_of(seen) + detail::largest_of(eye));
+    T const far_slack = slack + T(16) * eps * detail::largest_of(cast_box);
+
     ConvexBody<T> const casting = convex_body(cast_box);
-    SweepPadding<T> const rounding{slack, T(0)};
     focus.receivers = clipped(translated(visible_body(slice, receivers, slack), eye),
-                              swept_to_light(casting, -down, rounding));
-    focus.casters = swept_to_light(focus.receivers, down, rounding);
-    ConvexBody<T> const shadowing = clipped(casting, focus.casters);
-    if (focus.receivers.edge_count == 0 || shadowing.edge_count == 0) return focus;
-    T first = std::numeric_limits<T>::max(), last = std::numeric_limits<T>::lowest();
+                              swept_to_light(casting, -down, SweepPadding<T>{far_slack, T(0)}));
+    ConvexBody<T> const shadowing =
+        clipped(casting, swept_to_light(focus.receivers, down, SweepPadding<T>{far_slack, T(0)}));
+    if (shadowing.edge_count == 0) return focus;
+    T first = std::numeric_limits<T>::max(), last = std::numeric_limits<T>::lowest(), caster = first;
     for_each_vertex(focus.receivers, [&](Vec3<T> const& v) {
-        first = std::fmin(first, glm::dot(light.direction, v));
-        last = std::fmax(last, glm::dot(light.direction, v));
+        first = std::fmin(first, glm::dot(travel, v));
+        last = std::fmax(last, glm::dot(travel, v));
     });
+    for_each_vertex(shadowing, [&](Vec3<T> const& v) { caster = std::fmin(caster, glm::dot(travel, v)); });
     detail::widen(first, last, std::fmax(T(2) * slack, T(1e-6)));
     focus.first_receiver = first - slack;
-    focus.depth = {focus.first_receiver, last + slack, true};
-    for_each_vertex(shadowing, [&](Vec3<T> const& v) {
-        focus.depth.lo = std::fmin(focus.depth.lo, glm::dot(light.direction, v) - slack);
-    });
-    if (padding.metres > T(0) || padding.sun_slope > T(0)) {
-        SweepPadding<T> wide = padding;
-        wide.metres = std::fmax(wide.metres, T(0)) + slack;
-        focus.casters = swept_to_light(focus.receivers, down, wide);
-    }
+    focus.depth = {std::fmin(focus.first_receiver, caster - far_slack), last + slack, true};
+    SweepPadding<T> wide = padding;
+    wide.metres = std::fmax(wide.metres, T(0)) + slack;
+    focus.casters = swept_to_light(focus.receivers, down, wide);
     focus.visible = true;
     return focus;
 }

@@ -73,13 +73,14 @@ template <class T>
     return {region.lo - border, region.hi + border};
 }
 
-// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or
-// not finite gives the identity.
+// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty, not
+// finite, or so small or so large that its scale would not be, gives the identity.
 template <class T>
 [[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
     Vec2<T> const scale = T(2) / (region.hi - region.lo);
     Vec2<T> const offset = -(region.hi + region.lo) / (region.hi - region.lo);
+    if (!all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
     return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
                      Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }

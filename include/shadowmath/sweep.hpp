@@ -9,8 +9,9 @@
 //     | /     \ |
 //     |/  body \|                     h = h1 (-h2 . l) + h2 (h1 . l),     so that h . l = 0:
 //      \_______/   <- unlit faces
-//                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself,
-// whatever rounding did to its edges. No edge is ever measured, so short ones do no harm.
+//                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself.
+// No edge is ever measured, so short ones do no harm. Faces that meet at a knife's edge make a small sum, of which
+// rounding has its share: so only its direction is used, and the plane put where it touches the body.
 //
 // Source: silhouette planes are common for view frusta (by a table of 64 cases in some engines). Departures: any convex
 // body, spots, and padding for filters and for the sun's radius.
@@ -49,11 +50,19 @@ struct SweepPadding {
 
 namespace detail {
 
+// The half-space with this inward normal that touches the body, and the light where that is a place; of no direction,
+// everywhere.
+template <class T>
+[[nodiscard]] inline Vec4<T> touching(ConvexBody<T> const& body, Vec4<T> const& source,
+                                      Vec3<T> const& normal) noexcept {
+    T lowest = source.w == T(0) ? std::numeric_limits<T>::max() : glm::dot(normal, Vec3<T>(source) / source.w);
+    for_each_vertex(body, [&](Vec3<T> const& v) { lowest = std::fmin(lowest, glm::dot(normal, v)); });
+    return Vec4<T>(normal, -lowest);
+}
+
 template <class T>
 inline void add(HalfSpaces<T>& planes, Vec4<T> const& plane) noexcept {
-    T const length = glm::length(Vec3<T>(plane));
-    if (length > T(0) && planes.count < max_body_faces)
-        planes.at[static_cast<unsigned>(planes.count++)] = plane / length;
+    if (planes.count < max_body_faces) planes.at[static_cast<unsigned>(planes.count++)] = plane;
 }
 
 }  // namespace detail
@@ -66,6 +75,8 @@ template <class T>
                                                   SweepPadding<T> const& padding = {}) noexcept {
     HalfSpaces<T> swept;
     swept.visible = body.edge_count > 0;
+    Vec3<T> const travel(source);
+    bool const is_sun = source.w == T(0), widens = is_sun && padding.sun_slope > T(0);
     std::array<T, max_body_faces> lit{};
     std::array<bool, max_body_faces> used{};
     for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face)
@@ -74,27 +85,27 @@ template <class T>
         auto const [f, g] = body.edges[static_cast<unsigned>(i)].face;
         used[f] = used[g] = true;
         // An unlit face along the light is the silhouette's plane itself, and comes below.
-        if ((lit[f] > T(0) && lit[g] < T(0)) || (lit[g] > T(0) && lit[f] < T(0)))
-            detail::add(swept, body.half_space[f] * std::abs(lit[g]) + body.half_space[g] * std::abs(lit[f]));
+        if (!(lit[f] > T(0) && lit[g] < T(0)) && !(lit[g] > T(0) && lit[f] < T(0))) continue;
+        Vec4<T> const sum = body.half_space[f] * std::abs(lit[g]) + body.half_space[g] * std::abs(lit[f]);
+        Vec3<T> normal = safe_normalize(Vec3<T>(sum)).direction;
+        if (is_sun) normal = safe_normalize(normal - travel * glm::dot(normal, travel)).direction;
+        if (normal != Vec3<T>(T(0))) detail::add(swept, detail::touching(body, source, normal));
     }
-    for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face)
-        if (used[face] && !(lit[face] > T(0))) detail::add(swept, body.half_space[face]);
-
-    Vec3<T> const travel(source);
-    bool const widens = padding.sun_slope > T(0) && source.w == T(0);
-    for (Vec4<T>& plane : swept.at) {
-        if (&plane == swept.end()) break;
-        Vec3<T> normal(plane);
+    for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face) {
+        T const length = glm::length(Vec3<T>(body.half_space[face]));
+        if (used[face] && !(lit[face] > T(0)) && length > T(0)) detail::add(swept, body.half_space[face] / length);
+    }
+    T const sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+    for (unsigned i = 0; i < static_cast<unsigned>(swept.count); ++i) {
         // The way to the edge of the sun must not leave through the plane: its normal rises at least by the sun's sine.
-        T const rise = -glm::dot(normal, travel), sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+        Vec3<T> const normal(swept.at[i]);
+        T const rise = -glm::dot(normal, travel);
         if (widens && rise < sine) {
             Vec3<T> const level = safe_normalize(normal + travel * rise).direction;
-            normal = safe_normalize(level - travel * padding.sun_slope).direction;
-            T support = std::numeric_limits<T>::max();
-            for_each_vertex(body, [&](Vec3<T> const& v) { support = std::fmin(support, glm::dot(normal, v)); });
-            plane = Vec4<T>(normal, -support);
+            Vec3<T> const tilted = safe_normalize(level - travel * padding.sun_slope).direction;
+            swept.at[i] = detail::touching(body, source, tilted);
         }
-        plane.w += padding.metres;
+        swept.at[i].w += padding.metres;
     }
     return swept;
 }

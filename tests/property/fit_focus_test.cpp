@@ -47,8 +47,9 @@ TYPED_TEST(FitFocusProperty, StaysWithinTheBoxOfTheSlice) {
         Focus<T> const focus = focus_of(scene.view, light, scene.receivers, scene.receivers);
         RC_ASSERT(focus.visible);
         auto const inner = fit_focus(basis, focus, 1024, margin);
-        // A flat focus is widened to its own texel; that too is less than a texel of the slice.
-        T const texel = std::max(texel_metres(outer, 1024).x, texel_metres(outer, 1024).y);
+        // A flat focus is widened to a texel of its largest extent, which is less than the slice's.
+        T const across = std::max(outer.hi.x - outer.lo.x, outer.hi.y - outer.lo.y);
+        T const texel = std::max(across, outer.depth_hi - outer.depth_lo) / T(1024 - 16);
         T const noise = T(4) * T(laws::light_rounding(everything)) * T(4);
         RC_ASSERT(laws::is_within(inner, outer, noise + texel));
         RC_ASSERT(laws::holds_body_and_margin(inner, focus.receivers, 1024, margin));

@@ -106,6 +106,18 @@ TEST(House, EveryPublicFunctionIsInstantiatedByTheCompileTests) {
             EXPECT_TRUE(std::regex_search(called, std::regex("\\b" + name + "\\b"))) << header << ": " << name;
 }
 
+TEST(House, EveryAssertionIsSeenToFail) {
+    std::regex const assertion(R"re(\bSHADOWMATH_ASSERT\([^;]*"([^"]+)"\);)re");
+    std::string const broken = text_of(root / "tests/misuse/misuse_test.cpp");
+    int count = 0;
+    for (fs::path const& header : sources_under("include/shadowmath"))
+        for (std::string const& sentence : matches(code_of(header), assertion)) {
+            ++count;
+            EXPECT_NE(broken.find('"' + sentence + '"'), std::string::npos) << header << ": " << sentence;
+        }
+    EXPECT_GE(count, 5);
+}
+
 TEST(House, EveryHeaderHasLawsOrAUnitTest) {
     for (fs::path const& header : sources_under("include/shadowmath")) {
         std::string const name = header.stem().string();
