@@ -128,4 +128,48 @@ inline void masks(std::span<Frustum const> frustums, std::span<Box const> boxes,
     }
 }
 
+// Eight corners, and where some of them lie behind w_min, the twelve edges cut there.
+inline Box region(glm::mat4 const& m, std::span<Box const> boxes, float w_min) {
+    Box bounds{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+    auto const add = [&bounds](glm::vec4 const& p) {
+        glm::vec3 const ndc = glm::vec3(p) / p.w;
+        bounds.lo = glm::min(bounds.lo, ndc);
+        bounds.hi = glm::max(bounds.hi, ndc);
+    };
+    for (Box const& box : boxes) {
+        std::array<glm::vec4, 8> corner;
+        for (std::size_t i = 0; i < 8; ++i)
+            corner[i] = m * glm::vec4(i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
+                                      i & 4 ? box.hi.z : box.lo.z, 1.0f);
+        for (std::size_t i = 0; i < 8; ++i) {
+            if (corner[i].w >= w_min) add(corner[i]);
+            for (std::size_t bit = 1; bit < 8; bit <<= 1) {
+                std::size_t const j = i | bit;
+                if (j == i || (corner[i].w >= w_min) == (corner[j].w >= w_min)) continue;
+                add(glm::mix(corner[i], corner[j], (w_min - corner[i].w) / (corner[j].w - corner[i].w)));
+            }
+        }
+    }
+    return bounds;
+}
+
+// The thesis' vertex shader: slide the vertex onto the plane, look at that from the eye, and take the light's depth.
+struct ThesisMap {
+    glm::vec3 light;
+    glm::vec4 plane;
+    glm::mat4 clip_from_world;
+    glm::mat4 light_clip_from_world;
+};
+
+inline void vertices(ThesisMap const& map, std::span<glm::vec3 const> points, std::span<glm::vec4> clip) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        glm::vec3 const& p = points[i];
+        float const height = glm::dot(glm::vec3(map.plane), p) + map.plane.w;
+        glm::vec3 const on_plane = p - map.light * (height / glm::dot(glm::vec3(map.plane), map.light));
+        glm::vec4 const seen = map.clip_from_world * glm::vec4(on_plane, 1.0f);
+        glm::vec4 const lit = map.light_clip_from_world * glm::vec4(p, 1.0f);
+        clip[i] = glm::vec4(seen.x, seen.y, lit.z, seen.w);
+    }
+}
+
 }  // namespace textbook

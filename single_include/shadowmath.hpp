@@ -1954,8 +1954,9 @@ template <class T>
 //     | /     \ |
 //     |/  body \|                     h = h1 (-h2 . l) + h2 (h1 . l),     so that h . l = 0:
 //      \_______/   <- unlit faces
-//                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself,
-// whatever rounding did to its edges. No edge is ever measured, so short ones do no harm.
+//                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself.
+// No edge is ever measured, so short ones do no harm. Faces that meet at a knife's edge make a small sum, of which
+// rounding has its share: so only its direction is used, and the plane put where it touches the body.
 //
 // Source: silhouette planes are common for view frusta (by a table of 64 cases in some engines). Departures: any convex
 // body, spots, and padding for filters and for the sun's radius.
@@ -1984,11 +1985,19 @@ struct SweepPadding {
 
 namespace detail {
 
+// The half-space with this inward normal that touches the body, and the light where that is a place; of no direction,
+// everywhere.
+template <class T>
+[[nodiscard]] inline Vec4<T> touching(ConvexBody<T> const& body, Vec4<T> const& source,
+                                      Vec3<T> const& normal) noexcept {
+    T lowest = source.w == T(0) ? std::numeric_limits<T>::max() : glm::dot(normal, Vec3<T>(source) / source.w);
+    for_each_vertex(body, [&](Vec3<T> const& v) { lowest = std::fmin(lowest, glm::dot(normal, v)); });
+    return Vec4<T>(normal, -lowest);
+}
+
 template <class T>
 inline void add(HalfSpaces<T>& planes, Vec4<T> const& plane) noexcept {
-    T const length = glm::length(Vec3<T>(plane));
-    if (length > T(0) && planes.count < max_body_faces)
-        planes.at[static_cast<unsigned>(planes.count++)] = plane / length;
+    if (planes.count < max_body_faces) planes.at[static_cast<unsigned>(planes.count++)] = plane;
 }
 
 }  // namespace detail
@@ -2001,6 +2010,8 @@ template <class T>
                                                   SweepPadding<T> const& padding = {}) noexcept {
     HalfSpaces<T> swept;
     swept.visible = body.edge_count > 0;
+    Vec3<T> const travel(source);
+    bool const is_sun = source.w == T(0), widens = is_sun && padding.sun_slope > T(0);
     std::array<T, max_body_faces> lit{};
     std::array<bool, max_body_faces> used{};
     for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face)
@@ -2009,27 +2020,27 @@ template <class T>
         auto const [f, g] = body.edges[static_cast<unsigned>(i)].face;
         used[f] = used[g] = true;
         // An unlit face along the light is the silhouette's plane itself, and comes below.
-        if ((lit[f] > T(0) && lit[g] < T(0)) || (lit[g] > T(0) && lit[f] < T(0)))
-            detail::add(swept, body.half_space[f] * std::abs(lit[g]) + body.half_space[g] * std::abs(lit[f]));
+        if (!(lit[f] > T(0) && lit[g] < T(0)) && !(lit[g] > T(0) && lit[f] < T(0))) continue;
+        Vec4<T> const sum = body.half_space[f] * std::abs(lit[g]) + body.half_space[g] * std::abs(lit[f]);
+        Vec3<T> normal = safe_normalize(Vec3<T>(sum)).direction;
+        if (is_sun) normal = safe_normalize(normal - travel * glm::dot(normal, travel)).direction;
+        if (normal != Vec3<T>(T(0))) detail::add(swept, detail::touching(body, source, normal));
     }
-    for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face)
-        if (used[face] && !(lit[face] > T(0))) detail::add(swept, body.half_space[face]);
-
-    Vec3<T> const travel(source);
-    bool const widens = padding.sun_slope > T(0) && source.w == T(0);
-    for (Vec4<T>& plane : swept.at) {
-        if (&plane == swept.end()) break;
-        Vec3<T> normal(plane);
+    for (unsigned face = 0; face < static_cast<unsigned>(body.face_count); ++face) {
+        T const length = glm::length(Vec3<T>(body.half_space[face]));
+        if (used[face] && !(lit[face] > T(0)) && length > T(0)) detail::add(swept, body.half_space[face] / length);
+    }
+    T const sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+    for (unsigned i = 0; i < static_cast<unsigned>(swept.count); ++i) {
         // The way to the edge of the sun must not leave through the plane: its normal rises at least by the sun's sine.
-        T const rise = -glm::dot(normal, travel), sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+        Vec3<T> const normal(swept.at[i]);
+        T const rise = -glm::dot(normal, travel);
         if (widens && rise < sine) {
             Vec3<T> const level = safe_normalize(normal + travel * rise).direction;
-            normal = safe_normalize(level - travel * padding.sun_slope).direction;
-            T support = std::numeric_limits<T>::max();
-            for_each_vertex(body, [&](Vec3<T> const& v) { support = std::fmin(support, glm::dot(normal, v)); });
-            plane = Vec4<T>(normal, -support);
+            Vec3<T> const tilted = safe_normalize(level - travel * padding.sun_slope).direction;
+            swept.at[i] = detail::touching(body, source, tilted);
         }
-        plane.w += padding.metres;
+        swept.at[i].w += padding.metres;
     }
     return swept;
 }
@@ -2094,7 +2105,7 @@ struct Focus {
 // Every point of the slice inside `receivers` and below anything inside `casters` is in focus, and so is everything of
 // `casters` between it and the light; `padding` widens the casters' half-spaces only. Depth is no more than what those
 // span, but for rounding. Not visible: a spot, a light or view with faults, an endless slice, or something beyond 1e12
-// m; and where nothing is seen or nothing casts on it. Casters higher above the slice than 1024 times its size, and
+// m; and where nothing is seen or nothing casts on it. Casters higher above the slice than 65536 times its size, and
 // not below that, are cut.
 template <class T>
 [[nodiscard]] inline Focus<T> focus_of(ViewVolume<T> const& slice, Light<T> const& light, Aabb<T> const& casters,
@@ -2102,46 +2113,45 @@ template <class T>
     Focus<T> focus;
     constexpr T eps = std::numeric_limits<T>::epsilon();
     constexpr T farthest = T(1e12);
+    bool const flat = slice.kind == ViewKind::orthographic;
+    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
+                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const spread = flat ? T(1) : slice.z_far;
     bool const usable = light.kind == LightKind::directional && !unusable(light) && !faults_of(slice).any() &&
                         !is_positive_infinity(&slice.z_far) && all_finite(casters) && all_finite(receivers) &&
                         !is_empty(casters) && !is_empty(receivers);
-    if (!usable) return focus;
-    Vec3<T> const eye = slice.pose.position;
-    Aabb<T> const seen = bounds_of(corners(slice));
-    if (!all_finite(seen) || !(detail::largest_of(seen) <= farthest) || !(detail::largest_of(eye) <= farthest))
+    if (!usable || !(side <= farthest / std::fmax(spread, T(1))) || !(slice.z_far <= farthest) ||
+        !(detail::largest_of(slice.pose.position) <= farthest))
         return focus;
+    Vec3<T> const eye = slice.pose.position, travel = light.direction;
+    Vec4<T> const down(travel, T(0));
+    Aabb<T> const seen = bounds_of(corners(slice));
     T const size = detail::largest_of(seen.hi - seen.lo);
-    // Sixteen roundings stand behind a vertex: a plane, a cut, and the eye's own place.
-    T const slack = T(16) * eps * (size + detail::largest_of(seen) + detail::largest_of(eye));
-    Vec4<T> const down(light.direction, T(0));
-
-    Vec3<T> const reach(T(1024) * size);
-    Aabb<T> const near_enough{seen.lo - reach, seen.hi + reach};
-    Aabb<T> const cast_box = intersect(casters, near_enough);
+    Vec3<T> const reach(T(65536) * size);
+    Aabb<T> const cast_box = intersect(casters, Aabb<T>{seen.lo - reach, seen.hi + reach});
     if (is_empty(cast_box)) return focus;
+    // Sixteen roundings stand behind a vertex: a plane, a cut, and the eye's own place. Those of casters are larger.
+    T const slack = T(16) * eps * (size + detail::largest_of(seen) + detail::largest_of(eye));
+    T const far_slack = slack + T(16) * eps * detail::largest_of(cast_box);
+
     ConvexBody<T> const casting = convex_body(cast_box);
-    SweepPadding<T> const rounding{slack, T(0)};
     focus.receivers = clipped(translated(visible_body(slice, receivers, slack), eye),
-                              swept_to_light(casting, -down, rounding));
-    focus.casters = swept_to_light(focus.receivers, down, rounding);
-    ConvexBody<T> const shadowing = clipped(casting, focus.casters);
-    if (focus.receivers.edge_count == 0 || shadowing.edge_count == 0) return focus;
-    T first = std::numeric_limits<T>::max(), last = std::numeric_limits<T>::lowest();
+                              swept_to_light(casting, -down, SweepPadding<T>{far_slack, T(0)}));
+    ConvexBody<T> const shadowing =
+        clipped(casting, swept_to_light(focus.receivers, down, SweepPadding<T>{far_slack, T(0)}));
+    if (shadowing.edge_count == 0) return focus;
+    T first = std::numeric_limits<T>::max(), last = std::numeric_limits<T>::lowest(), caster = first;
     for_each_vertex(focus.receivers, [&](Vec3<T> const& v) {
-        first = std::fmin(first, glm::dot(light.direction, v));
-        last = std::fmax(last, glm::dot(light.direction, v));
+        first = std::fmin(first, glm::dot(travel, v));
+        last = std::fmax(last, glm::dot(travel, v));
     });
+    for_each_vertex(shadowing, [&](Vec3<T> const& v) { caster = std::fmin(caster, glm::dot(travel, v)); });
     detail::widen(first, last, std::fmax(T(2) * slack, T(1e-6)));
     focus.first_receiver = first - slack;
-    focus.depth = {focus.first_receiver, last + slack, true};
-    for_each_vertex(shadowing, [&](Vec3<T> const& v) {
-        focus.depth.lo = std::fmin(focus.depth.lo, glm::dot(light.direction, v) - slack);
-    });
-    if (padding.metres > T(0) || padding.sun_slope > T(0)) {
-        SweepPadding<T> wide = padding;
-        wide.metres = std::fmax(wide.metres, T(0)) + slack;
-        focus.casters = swept_to_light(focus.receivers, down, wide);
-    }
+    focus.depth = {std::fmin(focus.first_receiver, caster - far_slack), last + slack, true};
+    SweepPadding<T> wide = padding;
+    wide.metres = std::fmax(wide.metres, T(0)) + slack;
+    focus.casters = swept_to_light(focus.receivers, down, wide);
     focus.visible = true;
     return focus;
 }
@@ -2185,9 +2195,10 @@ inline namespace v0 {
 // Turned about the light: x goes to (cosine, sine) in the old axes. The two need not be of length 1 together.
 template <class T>
 [[nodiscard]] inline LightBasis<T> rolled(LightBasis<T> const& basis, T cosine, T sine) noexcept {
-    T const length = std::hypot(cosine, sine);
-    if (!(length > T(0))) return basis;
-    T const c = cosine / length, s = sine / length;
+    // Not by hypot, here and below: its last bit differs between platforms, and may turn a box.
+    Normalized<T> const x = safe_normalize(Vec3<T>(cosine, sine, T(0)));
+    if (!x.ok) return basis;
+    T const c = x.direction.x, s = x.direction.y;
     return {basis.x * c + basis.y * s, basis.y * c - basis.x * s, basis.depth};
 }
 
@@ -2221,8 +2232,8 @@ template <class T>
     auto const bounds_along = [&](T c, T s) {
         Aabb<T> turned;
         for (unsigned i = 0; i < count; ++i)
-            turned = merge(turned, Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x,
-                                           vertex[i].z));
+            turned = merge(turned,
+                           Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x, vertex[i].z));
         return turned;
     };
     auto const area_along = [&](Vec2<T> const& x) {
@@ -2237,20 +2248,20 @@ template <class T>
         auto const lit = [&](unsigned face) { return glm::dot(basis.depth, Vec3<T>(body.half_space[face])) > T(0); };
         if (lit(f) == lit(g)) continue;
         Vec2<T> const edge = Vec2<T>(vertex[2 * static_cast<unsigned>(i) + 1] - vertex[2 * static_cast<unsigned>(i)]);
-        T const length = std::hypot(edge.x, edge.y);
-        if (!(length > T(0))) continue;
-        T const needed = area_along(edge / length);
+        Normalized<T> const along = safe_normalize(Vec3<T>(edge, T(0)));
+        if (!along.ok) continue;
+        T const needed = area_along(Vec2<T>(along.direction));
         if (needed < least) {
             least = needed;
-            best = edge / length;
+            best = Vec2<T>(along.direction);
         }
     }
     // The previous direction, as far as it lies across this light.
     Vec3<T> const before = all_finite(previous_x) ? safe_normalize(previous_x).direction : Vec3<T>(T(0));
     Vec2<T> last(glm::dot(basis.x, before), glm::dot(basis.y, before));
-    T const across = std::hypot(last.x, last.y);
-    bool const has_last = across > T(1e-3);
-    last = has_last ? last / across : Vec2<T>(T(1), T(0));
+    Normalized<T> const across = safe_normalize(Vec3<T>(last, T(0)));
+    bool const has_last = across.length > T(1e-3);
+    last = has_last ? Vec2<T>(across.direction) : Vec2<T>(T(1), T(0));
     T const slack = all_finite(&hysteresis, 1) && hysteresis > T(0) ? hysteresis : T(0);
     if (has_last && area_along(last) <= std::fmin(least * (T(1) + slack), plain)) best = last;
     auto const box_along = [&](Vec2<T> x) {
@@ -3270,7 +3281,9 @@ struct InverseW {
 template <class T>
 [[nodiscard]] inline InverseW<T> ends_of_axis(Mat4<T> const& canonical, Light<T> const& light, T gain) noexcept {
     Vec4<T> const axis(light.direction, T(0));
-    T const at_infinity = glm::dot(row(canonical, 2), axis) / glm::dot(row(canonical, 3), axis);
+    T const w_along = glm::dot(row(canonical, 3), axis);
+    if (!(w_along > T(0))) return {};
+    T const at_infinity = glm::dot(row(canonical, 2), axis) / w_along;
     InverseW<T> const ends{at_infinity / gain, (at_infinity - T(1)) / gain};
     if (!all_finite(&ends.nearest, 1) || !all_finite(&ends.farthest, 1) || !(ends.nearest > T(0))) return {};
     return {ends.nearest, ends.farthest > T(0) ? ends.farthest : T(0)};
@@ -3375,6 +3388,51 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/wide.hpp ========
+//
+// How loops over arrays get the whole width of the machine although their user compiles for the oldest one: the same
+// portable loop is compiled twice, plain and for AVX2, and the processor is asked once a call.
+//
+// There are no intrinsics and there is no second source. AVX2 is taken without fused multiplication, so that both give
+// the same bits. A build that is told of AVX2 or more (-march=native), another processor and another compiler have one
+// version only.
+//
+// For a compiler to make vectors of it at -O2, a loop has a constant length, writes to local arrays or to another type
+// than it reads, and has neither branches nor loops in it.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__) && !defined(_WIN32)
+
+template <class Loop>
+[[gnu::target("avx2")]] inline void run_in_avx2(Loop const& loop) noexcept {
+    loop();
+}
+
+// `loop` is a struct whose operator() is [[gnu::always_inline]].
+template <class Loop>
+inline void run_widely(Loop const& loop) noexcept {
+    if (__builtin_cpu_supports("avx2"))
+        run_in_avx2(loop);
+    else
+        loop();
+}
+
+#else
+
+template <class Loop>
+inline void run_widely(Loop const& loop) noexcept {
+    loop();
+}
+
+#endif
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/culling.hpp ========
 //
 // Which maps an object must be drawn into: a bit for each, and the range [first, last] that one instanced draw covers.
@@ -3411,9 +3469,9 @@ struct MapRange {
 // The shafts of up to max_caster_maps maps, as add_map gives them to caster_mask.
 template <class T>
 struct CasterMaps {
-    // Up to four maps that look the same way. A point p is inside where half_normal . 2 p >= least, for all five sides.
+    // Up to four maps that look the same way. A point p is inside where normal . p >= least, for all five sides.
     struct Bundle {
-        Vec3<T> half_normal[5];  // left, right, bottom, top, far
+        Vec3<T> normal[5];  // left, right, bottom, top, far
         T least[5][4] = {};
         MapMask bit[4] = {};  // 0: no map here
     };
@@ -3435,33 +3493,25 @@ struct BoxArrays {
 
 namespace detail {
 
-// All numbers, and of size below 2^60 (which is above farthest_metres). By their bits (finite.hpp), and without a
-// branch among them, so that many cost little.
-[[nodiscard]] inline bool all_in_reach(float const* values, int count) noexcept {
-    std::uint32_t beyond = 0;
-    for (int i = 0; i < count; ++i) {
-        std::uint32_t bits;
-        std::memcpy(&bits, values + i, sizeof bits);
-        beyond |= (bits & 0x7fffffffu) + (0x80000000u - 0x5d800000u);
-    }
-    return (beyond & 0x80000000u) == 0;
+// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
+// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
+[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x80000000u - 0x5d800000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x8000000000000000u - 0x43b0000000000000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
+    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
 }
 
-[[nodiscard]] inline bool all_in_reach(double const* values, int count) noexcept {
-    constexpr std::uint64_t sign = 0x8000000000000000u;
-    std::uint64_t beyond = 0;
-    for (int i = 0; i < count; ++i) {
-        std::uint64_t bits;
-        std::memcpy(&bits, values + i, sizeof bits);
-        beyond |= (bits & ~sign) + (sign - 0x43b0000000000000u);
-    }
-    return (beyond & sign) == 0;
-}
-
-[[nodiscard]] inline bool all_in_reach(long double const* values, int count) noexcept {
-    for (int i = 0; i < count; ++i)
-        if (!all_finite(values + i, 1) || !(std::abs(values[i]) < 0x1p60L)) return false;
-    return true;
+template <class T>
+[[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
+    return all_finite(v) && largest_of(v) < T(0x1p60);
 }
 
 // lo > hi, infinite ends included; false where one is NaN, and no signal of one.
@@ -3472,8 +3522,8 @@ template <class T>
            lo > hi;
 }
 
-// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates. 2 for sum and
-// difference of lo and hi, 6 for the roundings of a dot product and its normal, 4 for a normal shared by maps.
+// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates: 6 epsilon for
+// the roundings of growing, of a dot product and of its normal, 4 for a normal shared by maps; the rest is room.
 template <class T>
 inline constexpr T box_slack = T(16) * std::numeric_limits<T>::epsilon();
 
@@ -3489,25 +3539,29 @@ template <class T>
                    offset < -beyond_all ? -beyond_all : (offset > beyond_all ? beyond_all : offset));
 }
 
-// How far a box reaches along the normal of a side. x2, y2, z2: the sum of its ends, which is twice its centre.
+// How far something reaches along the five normals of a bundle.
 template <class T>
-[[nodiscard]] inline T reach_of(Vec3<T> const& half_normal, T x2, T y2, T z2, T width, T height, T depth) noexcept {
-    return half_normal.x * x2 + half_normal.y * y2 + half_normal.z * z2 + std::abs(half_normal.x) * width +
-           std::abs(half_normal.y) * height + std::abs(half_normal.z) * depth;
-}
+struct Reaches {
+    T left, right, bottom, top, last;
+};
 
 // The maps of one bundle that something with these reaches is inside of.
+// NOTE: all is written out, with & for &&: at -O2 compilers unroll no inner loop, and do many boxes at once only where
+// there is neither loop nor branch.
 template <class T>
-[[nodiscard]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
-                                               T const (&reach)[5]) noexcept {
-    std::uint32_t bits = 0;
-    for (int place = 0; place < 4; ++place) {
-        bool inside = true;
-        // NOTE: & and not &&: a branch would keep compilers from doing many boxes at once.
-        for (int side = 0; side < 5; ++side) inside = inside & (reach[side] >= bundle.least[side][place]);
-        bits |= inside ? std::uint32_t(bundle.bit[place]) : 0u;
-    }
-    return bits;
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bit_if_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                                                     Reaches<T> const& reach, int place) noexcept {
+    bool const inside = (reach.left >= bundle.least[0][place]) & (reach.right >= bundle.least[1][place]) &
+                        (reach.bottom >= bundle.least[2][place]) & (reach.top >= bundle.least[3][place]) &
+                        (reach.last >= bundle.least[4][place]);
+    return inside ? bundle.bit[place] : 0u;
+}
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                                                   Reaches<T> const& reach) noexcept {
+    return bit_if_inside<T>(bundle, reach, 0) | bit_if_inside<T>(bundle, reach, 1) |
+           bit_if_inside<T>(bundle, reach, 2) | bit_if_inside<T>(bundle, reach, 3);
 }
 
 template <class T>
@@ -3536,7 +3590,7 @@ inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
     int side = 0;
     for (Vec4<T> const& inner : {w + x, w - x, w + y, w - y, last}) {
         Vec4<T> const plane = detail::side_plane(inner);
-        own.half_normal[side] = Vec3<T>(plane) * T(0.5);
+        own.normal[side] = Vec3<T>(plane);
         own.least[side++][0] = -plane.w;
     }
     own.bit[0] = bit;
@@ -3544,10 +3598,10 @@ inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
         auto& bundle = maps.bundle[maps.bundle_count - 1];
         T differ = T(0);
         for (side = 0; side < 5; ++side)
-            differ = std::fmax(differ, detail::largest_of(bundle.half_normal[side] - own.half_normal[side]));
+            differ = std::fmax(differ, detail::largest_of(bundle.normal[side] - own.normal[side]));
         int place = 0;
         while (place < 4 && bundle.bit[place] != 0) ++place;
-        if (place < 4 && differ <= T(2) * std::numeric_limits<T>::epsilon()) {
+        if (place < 4 && differ <= T(4) * std::numeric_limits<T>::epsilon()) {
             for (side = 0; side < 5; ++side) bundle.least[side][place] = own.least[side][0];
             bundle.bit[place] = bit;
             return;
@@ -3571,22 +3625,23 @@ template <class T>
 template <class T>
 [[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Aabb<T> const& box) noexcept {
     Vec3<T> const &lo = box.lo, &hi = box.hi;
-    if (!detail::all_in_reach(&lo.x, 3) || !detail::all_in_reach(&hi.x, 3)) {
+    if (!detail::all_in_reach(lo) || !detail::all_in_reach(hi)) {
         for (int axis = 0; axis < 3; ++axis)
             if (detail::are_crossed(lo[axis], hi[axis])) return 0;
         return detail::every_bit(maps);
     }
     if (lo.x > hi.x || lo.y > hi.y || lo.z > hi.z) return 0;
     T const sizes = std::abs(lo.x) + std::abs(hi.x) + std::abs(lo.y) + std::abs(hi.y) + std::abs(lo.z) + std::abs(hi.z);
-    Vec3<T> const centre2 = lo + hi, extent = hi - lo + Vec3<T>(detail::box_slack<T> * sizes);
+    Vec3<T> const grown(detail::box_slack<T> * sizes), first = lo - grown, last = hi + grown;
     std::uint32_t mask = 0;
     for (int b = 0; b < maps.bundle_count; ++b) {
         auto const& bundle = maps.bundle[b];
-        T reach[5];
-        for (int side = 0; side < 5; ++side)
-            reach[side] = detail::reach_of(bundle.half_normal[side], centre2.x, centre2.y, centre2.z, extent.x,
-                                           extent.y, extent.z);
-        mask |= detail::bits_inside<T>(bundle, reach);
+        auto const reach = [&](int side) {
+            Vec3<T> const& normal = bundle.normal[side];
+            return normal.x * (normal.x > T(0) ? last.x : first.x) + normal.y * (normal.y > T(0) ? last.y : first.y) +
+                   normal.z * (normal.z > T(0) ? last.z : first.z);
+        };
+        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
     }
     return static_cast<MapMask>(mask);
 }
@@ -3596,17 +3651,17 @@ template <class T>
 [[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Sphere<T> const& sphere) noexcept {
     Vec3<T> const& centre = sphere.center;
     if (detail::are_crossed(T(0), sphere.radius)) return 0;
-    if (!detail::all_in_reach(&centre.x, 3) || !detail::all_in_reach(&sphere.radius, 1)) return detail::every_bit(maps);
+    if (!detail::all_in_reach(centre) || !detail::all_in_reach(Vec3<T>(sphere.radius))) return detail::every_bit(maps);
     T const sizes = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + sphere.radius;
-    T const diameter = T(2) * sphere.radius + detail::box_slack<T> * sizes;
+    T const radius = sphere.radius + detail::box_slack<T> * sizes;
     std::uint32_t mask = 0;
     for (int b = 0; b < maps.bundle_count; ++b) {
         auto const& bundle = maps.bundle[b];
-        T reach[5];
-        for (int side = 0; side < 5; ++side)
-            reach[side] = T(2) * glm::dot(bundle.half_normal[side], centre) +
-                          diameter * std::sqrt(glm::dot(bundle.half_normal[side], bundle.half_normal[side]));
-        mask |= detail::bits_inside<T>(bundle, reach);
+        auto const reach = [&](int side) {
+            Vec3<T> const& normal = bundle.normal[side];
+            return glm::dot(normal, centre) + radius * std::sqrt(glm::dot(normal, normal));
+        };
+        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
     }
     return static_cast<MapMask>(mask);
 }
@@ -3615,37 +3670,61 @@ namespace detail {
 
 inline constexpr int boxes_at_once = 64;
 
-// Straight loops of constant length over one bundle, for a compiler to turn into vector code: see caster_masks.
+// One block of boxes; does nothing where a box is not in reach, and says so.
 template <class T>
-inline void mask_block(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, MapMask* masks) noexcept {
-    constexpr int n = boxes_at_once;
-    T x2[n], y2[n], z2[n], width[n], height[n], depth[n];
-    std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
-    for (int i = 0; i < n; ++i) {
-        T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
-        T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
-        T const grown = box_slack<T> * (std::abs(lo_x) + std::abs(hi_x) + std::abs(lo_y) + std::abs(hi_y) +
-                                        std::abs(lo_z) + std::abs(hi_z));
-        full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
-        mask[i] = 0;
-        x2[i] = lo_x + hi_x;
-        y2[i] = lo_y + hi_y;
-        z2[i] = lo_z + hi_z;
-        width[i] = hi_x - lo_x + grown;
-        height[i] = hi_y - lo_y + grown;
-        depth[i] = hi_z - lo_z + grown;
-    }
-    for (int b = 0; b < maps.bundle_count; ++b) {
-        typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
+struct MaskBlock {
+    CasterMaps<T> const& maps;
+    BoxArrays<T> const& boxes;
+    MapMask* masks;
+    bool& in_reach;
+
+    [[gnu::always_inline]] inline void operator()() const noexcept {
+        constexpr int n = boxes_at_once;
+        T grown[n], first_x[n], first_y[n], first_z[n], last_x[n], last_y[n], last_z[n];
+        std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
+        decltype(beyond_reach(T(0))) beyond = 0;
         for (int i = 0; i < n; ++i) {
-            T reach[5];
-            for (int side = 0; side < 5; ++side)
-                reach[side] = reach_of(bundle.half_normal[side], x2[i], y2[i], z2[i], width[i], height[i], depth[i]);
-            mask[i] |= bits_inside<T>(bundle, reach);
+            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
+                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
+            beyond |= beyond_reach(sizes);
+            grown[i] = box_slack<T> * sizes;
+            mask[i] = 0;
         }
+        in_reach = beyond >> (8 * sizeof beyond - 1) == 0;
+        if (!in_reach) return;
+        for (int i = 0; i < n; ++i) {
+            T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
+            T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
+            full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
+            first_x[i] = lo_x - grown[i];
+            first_y[i] = lo_y - grown[i];
+            first_z[i] = lo_z - grown[i];
+            last_x[i] = hi_x + grown[i];
+            last_y[i] = hi_y + grown[i];
+            last_z[i] = hi_z + grown[i];
+        }
+        for (int b = 0; b < maps.bundle_count; ++b) {
+            typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
+            struct Side {
+                Vec3<T> normal;
+                T const *x, *y, *z;  // the end of the boxes that lies farther along it
+                [[gnu::always_inline]] T operator()(int i) const noexcept {
+                    return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
+                }
+            };
+            auto const side_of = [&](Vec3<T> const& normal) {
+                return Side{normal, normal.x > T(0) ? last_x : first_x, normal.y > T(0) ? last_y : first_y,
+                            normal.z > T(0) ? last_z : first_z};
+            };
+            Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
+            Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
+            Side const end = side_of(bundle.normal[4]);
+            for (int i = 0; i < n; ++i)
+                mask[i] |= bits_inside<T>(bundle, {left(i), right(i), bottom(i), top(i), end(i)});
+        }
+        for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
     }
-    for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
-}
+};
 
 }  // namespace detail
 
@@ -3662,16 +3741,13 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         return BoxArrays<T>{boxes.lo_x + i, boxes.lo_y + i, boxes.lo_z + i,
                             boxes.hi_x + i, boxes.hi_y + i, boxes.hi_z + i};
     };
-    for (int begin = 0; begin < count; begin += detail::boxes_at_once) {
+    constexpr int n = detail::boxes_at_once;
+    for (int begin = 0; begin < count; begin += n) {
         BoxArrays<T> const block = from(begin);
-        int const left = count - begin, length = left < detail::boxes_at_once ? left : detail::boxes_at_once;
-        bool const in_reach = detail::all_in_reach(block.lo_x, length) && detail::all_in_reach(block.lo_y, length) &&
-                              detail::all_in_reach(block.lo_z, length) && detail::all_in_reach(block.hi_x, length) &&
-                              detail::all_in_reach(block.hi_y, length) && detail::all_in_reach(block.hi_z, length);
-        if (in_reach && length == detail::boxes_at_once) {
-            detail::mask_block(maps, block, masks + begin);
-            continue;
-        }
+        int const length = count - begin < n ? count - begin : n;
+        bool in_reach = false;
+        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
+        if (in_reach) continue;
         for (int i = 0; i < length; ++i)
             masks[begin + i] = caster_mask(maps, Aabb<T>{Vec3<T>(block.lo_x[i], block.lo_y[i], block.lo_z[i]),
                                                          Vec3<T>(block.hi_x[i], block.hi_y[i], block.hi_z[i])});

@@ -8,6 +8,7 @@
 #include "backends/gl/objects.hpp"
 #include "backends/gl/statistics.hpp"
 #include "backends/pass_check.hpp"
+#include "backends/shaders/embedded.hpp"
 
 #include <chrono>
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 #include "backends/gl/procs.hpp"
 
-#include "backends/shaders/embedded.hpp"
+#include "backends/shaders/shader.hpp"
 
 #include <initializer_list>
 #include <string>

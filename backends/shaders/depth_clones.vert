@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Leaves the vertex in the world, for depth_clones.geom takes it to each map. The word comes as an instance attribute
-// read at the draw's first instance: OpenGL and Vulkan disagree on whether the built-in instance number counts it.
+// Leaves the vertex in the world, for depth_clones.geom takes it to each map. The set of maps is the draw's first
+// instance, read by an attribute: OpenGL and Vulkan disagree on whether the built-in instance number counts from there.
 #version 450
 
 layout(location = 0) in vec3 position;  // world

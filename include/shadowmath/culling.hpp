@@ -59,34 +59,7 @@ struct CasterMaps {
     int map_count = 0;  // those that were never visible count too, and keep their bit clear
 };
 
-// Boxes as structure of arrays: box i is [lo_x[i], hi_x[i]] x ...
-template <class T>
-struct BoxArrays {
-    T const* lo_x = nullptr;
-    T const* lo_y = nullptr;
-    T const* lo_z = nullptr;
-    T const* hi_x = nullptr;
-    T const* hi_y = nullptr;
-    T const* hi_z = nullptr;
-};
-
 namespace detail {
-
-// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
-// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
-[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x80000000u - 0x5d800000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x8000000000000000u - 0x43b0000000000000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
-    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
-}
 
 template <class T>
 [[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
@@ -316,20 +289,14 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
                        boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
         "caster_masks needs six arrays of boxes and one of masks");
-    auto const from = [&boxes](int i) {
-        return BoxArrays<T>{boxes.lo_x + i, boxes.lo_y + i, boxes.lo_z + i,
-                            boxes.hi_x + i, boxes.hi_y + i, boxes.hi_z + i};
-    };
     constexpr int n = detail::boxes_at_once;
     for (int begin = 0; begin < count; begin += n) {
-        BoxArrays<T> const block = from(begin);
+        BoxArrays<T> const block = boxes_from(boxes, begin);
         int const length = count - begin < n ? count - begin : n;
         bool in_reach = false;
         if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
         if (in_reach) continue;
-        for (int i = 0; i < length; ++i)
-            masks[begin + i] = caster_mask(maps, Aabb<T>{Vec3<T>(block.lo_x[i], block.lo_y[i], block.lo_z[i]),
-                                                         Vec3<T>(block.hi_x[i], block.hi_y[i], block.hi_z[i])});
+        for (int i = 0; i < length; ++i) masks[begin + i] = caster_mask(maps, box_at(block, i));
     }
 }
 

@@ -28,7 +28,8 @@ enum class Fault : std::uint32_t {
     invalid_plane = 1u << 12,   // a shadow plane that contains the light or the eye, or has no normal
     bad_projection = 1u << 13,  // a given projection matrix from which no view volume can be read
     precision_lost = 1u << 14,  // coordinates too large for the scalar type to keep texels still; use double
-    warp_faded = 1u << 15       // light and view are nearly parallel: the warp gave way to a uniform map
+    warp_faded = 1u << 15,      // light and view are nearly parallel: the warp gave way to a uniform map
+    storage_too_small = 1u << 16  // the caller's arrays are shorter than the result needs
 };
 
 struct Faults {
@@ -73,6 +74,7 @@ struct Faults {
         case Fault::bad_projection: return "no view volume can be read from the projection matrix";
         case Fault::precision_lost: return "coordinates are too large for this scalar type to keep texels still";
         case Fault::warp_faded: return "light and view are nearly parallel, the warp gave way to a uniform map";
+        case Fault::storage_too_small: return "the storage given is smaller than the result needs";
     }
     return "no fault";
 }

@@ -30,8 +30,8 @@ struct FilterOptions {
     bool tap_plane = true;  // compare each tap with the receiver plane's depth there, not with the point's
 };
 
-// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis, when
-// the point lies the `fraction` [0, 1) into its texel.
+// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis,
+// when the point lies the `fraction` [0, 1) into its texel.
 template <class T>
 [[nodiscard]] constexpr T covered_texels(int tap, int radius, T fraction) noexcept {
     if (radius == 0) return T(1);
@@ -52,8 +52,8 @@ struct Receiver {
     DepthSlope<T> slope;  // on its plane
 };
 
-// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1 and
-// 0 are exact where all taps agree.
+// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1
+// and 0 are exact where all taps agree.
 // `stored_depth(x, y)` is asked for texels of the map only; those outside hold nothing. Depths are compared within
 // [0, 1], as they are stored: a receiver beyond the far end is lit by the cleared map. What is not finite is lit.
 template <class T, class StoredDepth>
@@ -89,22 +89,40 @@ template <class T, class StoredDepth>
     return dark == T(0) ? T(1) : lit / (lit + dark);
 }
 
+namespace detail {
+
+template <class T>
+struct Seen {
+    Receiver<T> receiver;
+    T w = T(1);           // clip w of the receiver
+    bool in_map = false;  // false: the map cannot answer, the point is lit
+};
+
+template <class T>
+[[nodiscard]] inline Seen<T> seen_by(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, Vec3<T> const& normal,
+                                     MapBias<T> const& bias, bool tap_plane) noexcept {
+    if (!map.visible || map_size < 1 || !all_finite(map.clip_from_world)) return {};
+    Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
+    if (!at.in_front) return {};
+    DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
+    DepthSlope<T> const own = tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
+    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
+    bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
+    T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
+    return {Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, at.w, true};
+}
+
+}  // namespace detail
+
 // What a receiver shader does for one map: project the point and the plane through it, subtract the bias, filter. 1
 // where the map does not hold the point. `normal` is the surface's own, not the interpolated one.
 template <class T, class StoredDepth>
 [[nodiscard]] inline T visibility(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, Vec3<T> const& normal,
                                   MapBias<T> const& bias, FilterOptions options,
                                   StoredDepth const& stored_depth) noexcept {
-    if (!map.visible || map_size < 1 || !all_finite(map.clip_from_world)) return T(1);
-    Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
-    if (!at.in_front) return T(1);
-    DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
-    DepthSlope<T> const own = options.tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
-    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
-    bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
-    T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
-    return filtered(Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, map_size, map.clip, options,
-                    stored_depth);
+    detail::Seen<T> const seen = detail::seen_by(map, map_size, point, normal, bias, options.tap_plane);
+    if (!seen.in_map) return T(1);
+    return filtered(seen.receiver, map_size, map.clip, options, stored_depth);
 }
 
 }  // namespace v0

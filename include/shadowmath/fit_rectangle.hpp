@@ -32,9 +32,10 @@ inline namespace v0 {
 // Turned about the light: x goes to (cosine, sine) in the old axes. The two need not be of length 1 together.
 template <class T>
 [[nodiscard]] inline LightBasis<T> rolled(LightBasis<T> const& basis, T cosine, T sine) noexcept {
-    T const length = std::hypot(cosine, sine);
-    if (!(length > T(0))) return basis;
-    T const c = cosine / length, s = sine / length;
+    // Not by hypot, here and below: its last bit differs between platforms, and may turn a box.
+    Normalized<T> const x = safe_normalize(Vec3<T>(cosine, sine, T(0)));
+    if (!x.ok) return basis;
+    T const c = x.direction.x, s = x.direction.y;
     return {basis.x * c + basis.y * s, basis.y * c - basis.x * s, basis.depth};
 }
 
@@ -68,8 +69,8 @@ template <class T>
     auto const bounds_along = [&](T c, T s) {
         Aabb<T> turned;
         for (unsigned i = 0; i < count; ++i)
-            turned = merge(turned, Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x,
-                                           vertex[i].z));
+            turned = merge(turned,
+                           Vec3<T>(c * vertex[i].x + s * vertex[i].y, c * vertex[i].y - s * vertex[i].x, vertex[i].z));
         return turned;
     };
     auto const area_along = [&](Vec2<T> const& x) {
@@ -84,20 +85,20 @@ template <class T>
         auto const lit = [&](unsigned face) { return glm::dot(basis.depth, Vec3<T>(body.half_space[face])) > T(0); };
         if (lit(f) == lit(g)) continue;
         Vec2<T> const edge = Vec2<T>(vertex[2 * static_cast<unsigned>(i) + 1] - vertex[2 * static_cast<unsigned>(i)]);
-        T const length = std::hypot(edge.x, edge.y);
-        if (!(length > T(0))) continue;
-        T const needed = area_along(edge / length);
+        Normalized<T> const along = safe_normalize(Vec3<T>(edge, T(0)));
+        if (!along.ok) continue;
+        T const needed = area_along(Vec2<T>(along.direction));
         if (needed < least) {
             least = needed;
-            best = edge / length;
+            best = Vec2<T>(along.direction);
         }
     }
     // The previous direction, as far as it lies across this light.
     Vec3<T> const before = all_finite(previous_x) ? safe_normalize(previous_x).direction : Vec3<T>(T(0));
     Vec2<T> last(glm::dot(basis.x, before), glm::dot(basis.y, before));
-    T const across = std::hypot(last.x, last.y);
-    bool const has_last = across > T(1e-3);
-    last = has_last ? last / across : Vec2<T>(T(1), T(0));
+    Normalized<T> const across = safe_normalize(Vec3<T>(last, T(0)));
+    bool const has_last = across.length > T(1e-3);
+    last = has_last ? Vec2<T>(across.direction) : Vec2<T>(T(1), T(0));
     T const slack = all_finite(&hysteresis, 1) && hysteresis > T(0) ? hysteresis : T(0);
     if (has_last && area_along(last) <= std::fmin(least * (T(1) + slack), plain)) best = last;
     auto const box_along = [&](Vec2<T> x) {

@@ -12,9 +12,12 @@
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>
 #include <shadowmath/finite.hpp>
+#include <shadowmath/reach.hpp>
+#include <shadowmath/wide.hpp>
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace shadowmath {
@@ -157,6 +160,155 @@ template <class T>
         }
     }
     return bounds;
+}
+
+namespace detail {
+
+inline constexpr int bodies_at_once = 16;
+
+// The least and the largest NDC so far, one of each for every place in a block.
+template <class T>
+struct BoundsInLanes {
+    T lo[3][bodies_at_once];
+    T hi[3][bodies_at_once];
+};
+
+// One block of boxes. `plain` says which of them were taken: all eight corners at w >= w_min, nothing empty, nothing
+// too large. The others are left to the caller, but for those wholly behind w_min, which have no bounds.
+template <class T>
+struct BoundsBlock {
+    Mat4<T> const& m;
+    T w_min;
+    BoxArrays<T> const& boxes;
+    BoundsInLanes<T>& bounds;
+    std::uint32_t* plain;
+    std::uint32_t* behind;
+
+    // Products of a row with both ends of each axis: a corner is X + Y + Z, so eight corners are six products.
+    struct Row {
+        T x0, x1, y0, y1, z0, z1;
+    };
+    [[gnu::always_inline]] Row row_of(int r, int i) const noexcept {
+        return {m[0][r] * boxes.lo_x[i], m[0][r] * boxes.hi_x[i],           m[1][r] * boxes.lo_y[i],
+                m[1][r] * boxes.hi_y[i], m[2][r] * boxes.lo_z[i] + m[3][r], m[2][r] * boxes.hi_z[i] + m[3][r]};
+    }
+    [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
+    [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
+
+    [[gnu::always_inline]] static T sum(Row const& row, int corner) noexcept {
+        return (corner & 1 ? row.x1 : row.x0) + (corner & 2 ? row.y1 : row.y0) + (corner & 4 ? row.z1 : row.z0);
+    }
+
+    // The four rows of a matrix with (0, 0, 0, w) below: extents add up, and one quotient at the end serves all.
+    [[gnu::always_inline]] void affine() const noexcept {
+        for (int r = 0; r < 3; ++r) {
+            for (int i = 0; i < bodies_at_once; ++i) {
+                Row const at = row_of(r, i);
+                T const lo = less(at.x0, at.x1) + less(at.y0, at.y1) + less(at.z0, at.z1);
+                T const hi = more(at.x0, at.x1) + more(at.y0, at.y1) + more(at.z0, at.z1);
+                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
+                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+            }
+        }
+    }
+
+    [[gnu::always_inline]] void perspective() const noexcept {
+        T inverse[8][bodies_at_once];
+        for (int i = 0; i < bodies_at_once; ++i) {
+            Row const w = row_of(3, i);
+            T const least = less(w.x0, w.x1) + less(w.y0, w.y1) + less(w.z0, w.z1);
+            T const most = more(w.x0, w.x1) + more(w.y0, w.y1) + more(w.z0, w.z1);
+            behind[i] = (most < w_min) & (plain[i] != 0) ? 1u : 0u;
+            plain[i] = least >= w_min ? plain[i] : 0u;
+            inverse[0][i] = T(1) / sum(w, 0), inverse[1][i] = T(1) / sum(w, 1);
+            inverse[2][i] = T(1) / sum(w, 2), inverse[3][i] = T(1) / sum(w, 3);
+            inverse[4][i] = T(1) / sum(w, 4), inverse[5][i] = T(1) / sum(w, 5);
+            inverse[6][i] = T(1) / sum(w, 6), inverse[7][i] = T(1) / sum(w, 7);
+        }
+        for (int r = 0; r < 3; ++r) {
+            for (int i = 0; i < bodies_at_once; ++i) {
+                Row const at = row_of(r, i);
+                T const a = sum(at, 0) * inverse[0][i], b = sum(at, 1) * inverse[1][i];
+                T const c = sum(at, 2) * inverse[2][i], d = sum(at, 3) * inverse[3][i];
+                T const e = sum(at, 4) * inverse[4][i], f = sum(at, 5) * inverse[5][i];
+                T const g = sum(at, 6) * inverse[6][i], h = sum(at, 7) * inverse[7][i];
+                T const lo = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
+                T const hi = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
+                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
+                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+            }
+        }
+    }
+
+    [[gnu::always_inline]] void operator()() const noexcept {
+        decltype(beyond_reach(T(0))) beyond = 0;
+        for (int i = 0; i < bodies_at_once; ++i) {
+            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
+                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
+            beyond |= beyond_reach(sizes);
+        }
+        if (beyond >> (8 * sizeof beyond - 1) != 0) {
+            for (int i = 0; i < bodies_at_once; ++i) plain[i] = behind[i] = 0;
+            return;
+        }
+        for (int i = 0; i < bodies_at_once; ++i) {
+            plain[i] =
+                ((boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]))
+                    ? 1u
+                    : 0u;
+            behind[i] = 0;
+        }
+        bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+        if (flat)
+            affine();
+        else
+            perspective();
+    }
+};
+
+}  // namespace detail
+
+// The bounds of many boxes together: what projected_bounds of each, merged, would give, to rounding; a box that is
+// empty or not finite adds nothing. For a w_min that is not positive one by one, and slowly, unless the matrix is
+// affine.
+template <class T>
+[[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, BoxArrays<T> const& boxes, int count,
+                                              T w_min) noexcept {
+    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return {};
+    Mat4<T> const& m = clip_from_world;
+    T entry = T(0);
+    for (int column = 0; column < 4; ++column)
+        for (int r = 0; r < 4; ++r) entry = glm::max(entry, std::abs(m[column][r]));
+    bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+    T const w = m[3][3];
+    bool const in_blocks = entry <= T(1e15) && (flat ? w >= T(1e-15) && w >= w_min : w_min >= T(1e-15));
+    Aabb<T> all;
+    detail::BoundsInLanes<T> lanes;
+    for (int r = 0; r < 3; ++r)
+        for (int i = 0; i < detail::bodies_at_once; ++i) {
+            lanes.lo[r][i] = std::numeric_limits<T>::max();
+            lanes.hi[r][i] = std::numeric_limits<T>::lowest();
+        }
+    constexpr int n = detail::bodies_at_once;
+    for (int begin = 0; begin < count; begin += n) {
+        BoxArrays<T> const block = boxes_from(boxes, begin);
+        int const length = count - begin < n ? count - begin : n;
+        std::uint32_t plain[n] = {}, behind[n] = {};
+        if (in_blocks && length == n) detail::run_widely(detail::BoundsBlock<T>{m, w_min, block, lanes, plain, behind});
+        for (int i = 0; i < length; ++i) {
+            if ((plain[i] | behind[i]) != 0) continue;
+            Aabb<T> const box = box_at(block, i);
+            if (all_finite(box) && !is_empty(box)) all = merge(all, projected_bounds(m, corners(box), w_min));
+        }
+    }
+    Aabb<T> in_lanes;
+    for (int r = 0; r < 3; ++r)
+        for (int i = 0; i < n; ++i) {
+            in_lanes.lo[r] = glm::min(in_lanes.lo[r], lanes.lo[r][i]);
+            in_lanes.hi[r] = glm::max(in_lanes.hi[r], lanes.hi[r][i]);
+        }
+    if (is_empty(in_lanes)) return all;
+    return merge(all, flat ? Aabb<T>{in_lanes.lo / w, in_lanes.hi / w} : in_lanes);
 }
 
 }  // namespace v0

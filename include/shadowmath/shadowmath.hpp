@@ -19,6 +19,7 @@
 
 // Where along the view.
 #include <shadowmath/slice.hpp>
+#include <shadowmath/slices.hpp>
 #include <shadowmath/splits.hpp>
 
 // How to look from the light.
@@ -35,6 +36,7 @@
 
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
+#include <shadowmath/points.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
@@ -60,7 +62,14 @@
 
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
+#include <shadowmath/hfts.hpp>
+#include <shadowmath/moments.hpp>
+#include <shadowmath/msm.hpp>
+#include <shadowmath/pcss.hpp>
+#include <shadowmath/penumbra.hpp>
 #include <shadowmath/sampling.hpp>
+#include <shadowmath/vsm.hpp>
 
-// What compute shaders are given.
+// And what it reads.
+#include <shadowmath/gpu.hpp>
 #include <shadowmath/gpu_samples.hpp>

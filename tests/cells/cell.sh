@@ -1,17 +1,18 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# cell.sh NAME [--hashes FILE] [--runner PROGRAM] [--replay ARGUMENTS] -- COMPILER FLAGS...
+# cell.sh NAME [--write FILE | --compare FILE] [--runner PROGRAM] [--replay ARGUMENTS] -- COMPILER FLAGS...
 #
-# Compiles the laws in one file with these flags, runs them on pseudo-random bytes, and compares the hashes of what came
-# out with those of FILE; the first to come writes it. A compiler or runner that is missing is a skipped test.
+# Compiles the laws in one file with these flags, runs them on pseudo-random bytes, and writes the hashes of what came
+# out to FILE, or compares them with it. A compiler or runner that is missing is a skipped test.
 set -eu
 name=$1
-hashes='' runner='' replay=''
+written='' compared='' runner='' replay=''
 shift
 while [ "$1" != -- ]; do
     case $1 in
-        --hashes) hashes=$2 ;;
+        --write) written=$2 ;;
+        --compare) compared=$2 ;;
         --runner) runner=$2 ;;
         --replay) replay=$2 ;;
     esac
@@ -30,9 +31,5 @@ case $replay in none) exit 0 ;; esac
 $runner "./$name$suffix" $replay > "$name.txt" || { cat "$name.txt"; exit 1; }
 cat "$name.txt"
 rm -f "$name.o" "$name$suffix" "$name.wasm"
-[ -n "$hashes" ] || exit 0
-if [ -e "$hashes" ]; then
-    diff "$hashes" "$name.txt" || { printf 'Not the bits that other builds compute.\n'; exit 1; }
-else
-    cp "$name.txt" "$hashes"
-fi
+if [ -n "$written" ]; then cp "$name.txt" "$written"; fi
+[ -z "$compared" ] || diff "$compared" "$name.txt" || { printf 'Not the bits that other builds compute.\n'; exit 1; }

@@ -47,6 +47,12 @@ int every_overloaded_function() noexcept {
     auto const stored_depth = [](int, int) { return T(1); };
     count += filtered(Receiver<T>{}, 16, gl_clip, FilterOptions{}, stored_depth) > T(0);
     count += visibility(map, 16, point, Vec3<T>(T(0), T(1), T(0)), MapBias<T>{}, FilterOptions{}, stored_depth) > T(0);
+    count += soft_filtered(Receiver<T>{}, T(1), MapPenumbra<T>{}, 16, gl_clip, PcssOptions<T>{}, stored_depth).blocked;
+    count += soft_visibility(map, 16, point, Vec3<T>(T(0), T(1), T(0)), MapBias<T>{}, MapPenumbra<T>{},
+                             PcssOptions<T>{}, stored_depth)
+                 .blocked;
+    auto const stored_moments = [](int, int) { return Vec2<T>(T(1)); };
+    count += mean_moments(Vec2<T>(T(1)), 16, 1, Vec2<T>(T(1)), stored_moments).x > T(0);
     return count;
 }
 
@@ -75,12 +81,19 @@ int every_function() noexcept {
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
                   &spot_clip_from_world<T>, &fit_spot<T>);
     count += keep(&bounding_sphere<T>);
+    count += keep(&gpu_shadow_map<T>, &gpu_map<T>, &gpu_penumbra<T>, &gpu_cascades<T>);
     count += keep(&texels_per_pixel<T>, &footprint<T>);
+    count += keep(&softness<T>, &hybrid_visibility<T>);
     count += keep(&directional<T>, &spot<T>, &unusable<T>, &homogeneous<T>, &toward<T>, &faces_away<T>, &light_basis<T>,
                   &in_light<T>);
     count += keep(&texel_metres<T>, &rebased<T>);
     count += keep(&door<T>, &map_from_rows<T>);
     count += keep(&faults_of_margin<T>, &usable_texels<T>);
+    count += keep(&less_bleeding<T>);
+    count += keep(&msm_moments<T>, &msm_packed<T>, &msm_unpacked<T>, &msm_visibility<T>);
+    count += keep(&next_direction<T>);
+    count += keep(&sun_radius<T>, &penumbra_metres<T>, &gap_of_metres<T>, &metres_of_gap<T>, &place_from_world<T>,
+                  &penumbra_for<T>, &across<T>, &gap_at<T>, &kernel_texels<T>);
     count += keep(&translated<T>, &visible_body<T>);
     count +=
         keep(&region_of<T>, &widened<T>, &with_margin<T>, &region_matrix<T>, &tile_matrix<T>, &projected_bounds<T>);
@@ -98,6 +111,8 @@ int every_function() noexcept {
                   &receiver_valid<T>);
     count += keep(&pose_looking<T>, &perspective_view<T>, &orthographic_view<T>, &view_from_projection<T>,
                   &orthonormalized<T>, &point_at<T>, &eye_depth<T>);
+    count +=
+        keep(&vsm_moments<T>, &vsm_visibility<T>, &evsm_warp<T>, &evsm_moments<T>, &evsm_bound<T>, &evsm_visibility<T>);
     count += keep(&printed_simple_warp<T>, &corrected_simple_warp<T>, &optimal_inverse_centre<T>, &perspective_warp<T>,
                   &warp_axes<T>, &simple_perspective_map<T>);
     return count;

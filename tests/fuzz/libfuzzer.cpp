@@ -1,12 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it.
+// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. Allocations
+// are counted by the address sanitizer's own hook: it wants operator new for itself.
 #include "tests/fuzz/case.hpp"
-#include "tests/support/counted_new.hpp"
+
+#include <sanitizer/allocator_interface.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+namespace {
+
+std::uint64_t allocations = 0;
+void count_allocation(void const volatile*, std::size_t) {
+    ++allocations;
+}
+void ignore_deallocation(void const volatile*) {}
+[[maybe_unused]] int const installed =
+    __sanitizer_install_malloc_and_free_hooks(&count_allocation, &ignore_deallocation);
+
+}  // namespace
+
+std::uint64_t shadowmath::test::allocation_count() {
+    return allocations;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* bytes, std::size_t size) {
     using namespace shadowmath::fuzz;

@@ -5,7 +5,8 @@
 //
 //   replay [--finite] [--cases N] [--seed S] [target or file ...]
 //
-// --finite leaves out NaN and infinity, for builds with -ffast-math. A file's name up to its first '-' is its target's.
+// --finite leaves out NaN and infinity, for builds with -ffast-math. A file belongs to the target that its folder is
+// named after.
 #include "tests/fuzz/case.hpp"
 #include "tests/support/counted_new.hpp"
 
@@ -53,14 +54,14 @@ std::uint64_t run_random(Target const& target, std::uint64_t seed, int cases) {
 int run_file(std::string const& path) {
     std::ifstream file(path, std::ios::binary);
     Bytes const bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    std::string const name = path.substr(path.find_last_of('/') + 1), stem = name.substr(0, name.find('-'));
+    std::string const folder = path.substr(0, path.find_last_of('/'));
+    std::string const wanted = folder.substr(folder.find_last_of('/') + 1);
     int found = 0;
     for (Target const& target : targets())
-        if (file.good() || file.eof())
-            if (stem == target.name) {
-                run(target, bytes, name);
-                ++found;
-            }
+        if (wanted == target.name && !bytes.empty()) {
+            run(target, bytes, path);
+            ++found;
+        }
     if (found == 0) std::printf("BROKEN %s: neither a target nor a file of one\n", path.c_str());
     return found == 0 ? 1 : 0;
 }
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
             cases = std::atoi(argv[++i]);
         else if (argument == "--seed" && i + 1 < argc)
             seed = std::strtoull(argv[++i], nullptr, 0);
-        else if (argument.find_first_of("/-") != std::string::npos)
+        else if (argument.find('/') != std::string::npos)
             paths.push_back(argument);
         else
             wanted.push_back(argument);

@@ -52,3 +52,17 @@ TEST_F(MisuseDeathTest, ABodyThatIsCutTooOftenAsserts) {
     ConvexBody<double> const body = cut_as_often_as_possible();
     EXPECT_DEATH((void)clipped(body, glm::dvec4(1, 0, 0, 0)), "a convex body was cut too often");
 }
+
+TEST_F(MisuseDeathTest, MoreMapsThanAMaskHasBitsAssert) {
+    CasterMaps<float> maps;
+    for (int i = 0; i < max_caster_maps; ++i) add_map(maps, ShadowMap<float>{});
+    EXPECT_DEATH(add_map(maps, ShadowMap<float>{}), "more maps than a mask has bits");
+}
+
+TEST_F(MisuseDeathTest, CullingWithoutMapsOrArraysAsserts) {
+    ShadowMap<float> const* const no_maps = nullptr;
+    EXPECT_DEATH((void)caster_maps(no_maps, 1), "caster_maps needs maps");
+    EXPECT_DEATH(caster_masks(CasterMaps<float>{}, BoxArrays<float>{}, 1, nullptr),
+                 "caster_masks needs six arrays of boxes and one of masks");
+    caster_masks(CasterMaps<float>{}, BoxArrays<float>{}, 0, nullptr);
+}

@@ -57,6 +57,7 @@ protected:
 };
 
 inline auto const every_driver = testing::Values(Driver::egl, Driver::egl_text, Driver::osmesa, Driver::vulkan);
+inline auto const twin_drivers = testing::Values(Driver::egl, Driver::egl_text, Driver::vulkan);
 inline auto const driver_name = [](auto const& driver) { return name_of(driver.param); };
 
 }  // namespace shadowmath::twins

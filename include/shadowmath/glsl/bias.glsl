@@ -11,7 +11,7 @@
 #include "shadow_map.glsl"
 #include "tangent.glsl"
 
-// As sm_slope, of a point that is projected already; `texture_from_world` is finite.
+// As sm_slope, of a point that is projected already.
 vec2 sm_slope_at(mat4 texture_from_world, sm_Projected at, int map_size, vec3 normal, float limit) {
     sm_Tangents plane = sm_tangents(normal);
     if (!at.in_front || !plane.ok || map_size < 1 || !sm_all_finite(limit) || !(limit > 0.0)) return vec2(0.0);
@@ -27,30 +27,30 @@ vec2 sm_slope_at(mat4 texture_from_world, sm_Projected at, int map_size, vec3 no
     return vec2(sm_bounded_quotient(rise.x, area, limit), sm_bounded_quotient(rise.y, area, limit));
 }
 
-// Stored depth gained a texel in x and y on the plane through the point: exact for every projective map. Each is clamped
-// to [-limit, limit], its value also where the light grazes the plane. Zero where the map does not hold the point.
+// Stored depth gained a texel in x and y on the plane through the point: exact for every projective map. Each is
+// clamped to [-limit, limit], its value also where the light grazes the plane. Zero where the map does not hold the
+// point.
 vec2 sm_slope(sm_ShadowMap map, int map_size, vec3 point, vec3 normal, float limit) {
     mat4 texture_from_world = sm_texture_from_world(map);
-    if (!sm_all_finite(map.clip_from_world)) return vec2(0.0);
     return sm_slope_at(texture_from_world, sm_projected(texture_from_world, point, map.w_min), map_size, normal, limit);
 }
 
-// The normal of the plane across the light at the point; `at` is in front, and in NDC.
-vec3 sm_across_light(mat4 clip_from_world, vec3 at) {
-    mat4 m = clip_from_world;
+// As sm_lean, of a point that is projected already.
+vec2 sm_lean_at(mat4 texture_from_world, sm_Projected at, int map_size, float limit) {
+    mat4 m = texture_from_world;
     vec3 w = vec3(m[0].w, m[1].w, m[2].w);
-    precise vec3 x = vec3(m[0].x, m[1].x, m[2].x) - at.x * w;
-    precise vec3 y = vec3(m[0].y, m[1].y, m[2].y) - at.y * w;
-    // Along a light ray neither x nor y of NDC changes: it is at a right angle to both of these.
-    return sm_cross(sm_safe_normalize(x).direction, sm_safe_normalize(y).direction);
+    precise vec3 u = vec3(m[0].x, m[1].x, m[2].x) - at.at.x * w;
+    precise vec3 v = vec3(m[0].y, m[1].y, m[2].y) - at.at.y * w;
+    // Along a light ray neither u nor v changes: it is at a right angle to both of these.
+    vec3 across = sm_cross(sm_safe_normalize(u).direction, sm_safe_normalize(v).direction);
+    return sm_slope_at(texture_from_world, at, map_size, across, limit);
 }
 
 // The slope of the plane across the light: 0 in an affine map; in any other what the map itself adds to the slope of
 // every receiver.
 vec2 sm_lean(sm_ShadowMap map, int map_size, vec3 point, float limit) {
-    sm_Projected in_clip = sm_projected(map.clip_from_world, point, map.w_min);
-    if (!in_clip.in_front) return vec2(0.0);
-    return sm_slope(map, map_size, point, sm_across_light(map.clip_from_world, in_clip.at), limit);
+    mat4 texture_from_world = sm_texture_from_world(map);
+    return sm_lean_at(texture_from_world, sm_projected(texture_from_world, point, map.w_min), map_size, limit);
 }
 
 // The bias of one shader invocation: `w` is the receiver's clip w, `slope` its slope, less the lean where taps follow

@@ -43,7 +43,8 @@ bool sm_is_tap_lit(sampler2DArray depths, int layer, int map_size, int depth_ord
     return !(depth_order == sm_one_to_zero ? kept < stored : kept > stored);
 }
 
-// Share of light that reaches the receiver, in [0, 1]; 1 and 0 are exact where all taps agree. What is not finite is lit.
+// Share of light that reaches the receiver, in [0, 1]; 1 and 0 are exact where all taps agree. What is not finite is
+// lit.
 float sm_filtered(sampler2DArray depths, int layer, sm_Receiver receiver, int map_size, int depth_order,
                   int filter_radius, bool tap_plane) {
     int radius = clamp(filter_radius, 0, sm_largest_filter_radius);
@@ -72,27 +73,36 @@ float sm_filtered(sampler2DArray depths, int layer, sm_Receiver receiver, int ma
     return dark == 0.0 ? 1.0 : share;
 }
 
-// What a receiver needs of one map: project the point and the plane through it, subtract the bias, filter. 1 where the
-// map does not hold the point. `normal` is the surface's own, not the interpolated one.
-float sm_visibility(sampler2DArray depths, int layer, sm_ShadowMap map, int map_size, vec3 point, vec3 normal,
-                    sm_MapBias bias, int filter_radius, bool tap_plane) {
-    if (map.visible == 0 || map_size < 1 || !sm_all_finite(map.clip_from_world)) return 1.0;
+struct sm_Seen {
+    sm_Receiver receiver;
+    float w;      // clip w of the receiver
+    bool in_map;  // false: the map cannot answer, the point is lit
+};
+
+// The point and the plane through it in the map, moved toward the light by its bias. `normal` is the surface's own, not
+// the interpolated one.
+sm_Seen sm_seen_by(sm_ShadowMap map, int map_size, vec3 point, vec3 normal, sm_MapBias bias, bool tap_plane) {
+    sm_Seen unseen = sm_Seen(sm_Receiver(vec2(0.0), 0.0, vec2(0.0)), 1.0, false);
+    if (map.visible == 0 || map_size < 1) return unseen;
     mat4 texture_from_world = sm_texture_from_world(map);
     sm_Projected at = sm_projected(texture_from_world, point, map.w_min);
-    if (!at.in_front) return 1.0;
+    if (!at.in_front) return unseen;
     vec2 slope = sm_slope_at(texture_from_world, at, map_size, normal, bias.slope_limit);
-    vec2 own = vec2(0.0);
-    if (tap_plane) {
-        sm_Projected in_clip = sm_projected(map.clip_from_world, point, map.w_min);
-        vec3 across = sm_across_light(map.clip_from_world, in_clip.at);
-        if (in_clip.in_front) own = sm_slope_at(texture_from_world, at, map_size, across, bias.slope_limit);
-    }
+    vec2 own = tap_plane ? sm_lean_at(texture_from_world, at, map_size, bias.slope_limit) : vec2(0.0);
     precise vec2 steeper = slope - own;
     float toward_light = sm_depth_bias(bias, at.w, steeper);
     precise float depth = map.depth_order == sm_one_to_zero ? at.at.z + toward_light : at.at.z - toward_light;
     precise vec2 texel = at.at.xy * float(map_size);
-    return sm_filtered(depths, layer, sm_Receiver(texel, depth, slope), map_size, map.depth_order, filter_radius,
-                       tap_plane);
+    return sm_Seen(sm_Receiver(texel, depth, slope), at.w, true);
+}
+
+// What a receiver needs of one map: project the point and the plane through it, subtract the bias, filter. 1 where the
+// map does not hold the point.
+float sm_visibility(sampler2DArray depths, int layer, sm_ShadowMap map, int map_size, vec3 point, vec3 normal,
+                    sm_MapBias bias, int filter_radius, bool tap_plane) {
+    sm_Seen seen = sm_seen_by(map, map_size, point, normal, bias, tap_plane);
+    if (!seen.in_map) return 1.0;
+    return sm_filtered(depths, layer, seen.receiver, map_size, map.depth_order, filter_radius, tap_plane);
 }
 
 #endif

@@ -3,7 +3,8 @@
 // Is it a number, and how long is it: the GLSL twin of finite.hpp.
 //
 // Bits decide, for a compiler may take isnan() for false. Equal to the C++ bit for bit where the driver divides and
-// takes roots as IEEE 754 does and keeps denormals (Mesa's software drivers); where it flushes denormals they are zeros.
+// takes roots as IEEE 754 does and keeps denormals (Mesa's software drivers); where it flushes denormals they are
+// zeros.
 #ifndef SM_FINITE_GLSL
 #define SM_FINITE_GLSL
 
@@ -40,7 +41,7 @@ vec3 sm_cross(vec3 a, vec3 b) {
 
 struct sm_Normalized {
     vec3 direction;  // unit, or zero when ok is false
-    float length;    // of the input; may overflow to infinity
+    float size;      // length of the input; may overflow to infinity
     bool ok;
 };
 
@@ -48,7 +49,9 @@ struct sm_Normalized {
 sm_Normalized sm_safe_normalize(vec3 v) {
     float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
     if (!sm_all_finite(v) || !(largest > 0.0)) return sm_Normalized(vec3(0.0), 0.0, false);
-    precise vec3 scaled = v / largest;
+    // A driver that divides by way of the reciprocal loses what is very short or very long: a power of two first.
+    float power = largest < 7.88860905e-31 ? 1.26765060e30 : (largest > 1.26765060e30 ? 7.88860905e-31 : 1.0);
+    precise vec3 scaled = (v * power) / (largest * power);
     precise float size = sqrt(sm_dot(scaled, scaled));
     precise vec3 direction = scaled / size;
     precise float whole = size * largest;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The one number: how many eye pixels one texel of a shadow map covers, at a point of a surface. The GLSL twin of
-// footprint.hpp, within 4 ulp of it where the driver divides as IEEE 754 does (Mesa's software drivers): GLSL has no
+// footprint.hpp, within 12 ulp of it where the driver divides as IEEE 754 does (Mesa's software drivers): GLSL has no
 // hypot. Draw it as a heat map, or choose among maps by it.
 #ifndef SM_FOOTPRINT_GLSL
 #define SM_FOOTPRINT_GLSL
@@ -28,7 +28,7 @@ sm_Footprint sm_texels_per_pixel(sm_Footprint footprint) {
                         sm_bounded_quotient(1.0, footprint.major, sm_footprint_limit));
 }
 
-// The length of (a, b), to 2 ulp; neither square over- nor underflows.
+// The length of (a, b), to 4 ulp; neither square over- nor underflows.
 float sm_hypot(float a, float b) {
     float longer = max(abs(a), abs(b));
     float shorter = min(abs(a), abs(b));

@@ -45,11 +45,13 @@ mat4 sm_scale_and_move(vec2 scale, vec2 offset) {
     return mat4(scale.x, 0.0, 0.0, 0.0, 0.0, scale.y, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, offset, 0.0, 1.0);
 }
 
-// The region fills the map. One that is empty or not finite gives the identity.
+// The region fills the map. One that is empty, not finite, or so small or so large that its scale would not be, gives
+// the identity.
 mat4 sm_region_matrix(sm_Region region) {
     if (!sm_all_finite(region.lo) || !sm_all_finite(region.hi) || sm_is_empty(region)) return mat4(1.0);
     precise vec2 scale = 2.0 / (region.hi - region.lo);
     precise vec2 offset = -(region.hi + region.lo) / (region.hi - region.lo);
+    if (!sm_all_finite(scale) || !sm_all_finite(offset)) return mat4(1.0);
     return sm_scale_and_move(scale, offset);
 }
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+//
+// Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
+#pragma once
+
+#include <shadowmath/irregular/microquad.hpp>
+
+#include <shadowmath/irregular/edge.hpp>
+#include <shadowmath/irregular/lanes.hpp>
+#include <shadowmath/irregular/mask.hpp>
+
+#include <shadowmath/irregular/grid.hpp>
+#include <shadowmath/irregular/trace.hpp>
