@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The compute passes that fit maps to what the eye sees, as plain data for FitPass or a compute runner: their uniform
-// block (binding 0) is shadowmath's GpuSampleFit, byte for byte, their buffers a GpuSampleState (1) and the MapConstants
-// that they make (2), their texture the eye's depth (3).
+// block (binding 0) is shadowmath's GpuSampleFit, byte for byte, their buffers a GpuSampleState (1) and the
+// MapConstants that they make (2), their texture the eye's depth (3).
 #pragma once
 
 #include "backends/backend.hpp"

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -193,6 +194,29 @@ struct Sphere {
     T radius = T(0);
 };
 
+// Boxes as structure of arrays: box i is [lo_x[i], hi_x[i]] x ...
+template <class T>
+struct BoxArrays {
+    T const* lo_x = nullptr;
+    T const* lo_y = nullptr;
+    T const* lo_z = nullptr;
+    T const* hi_x = nullptr;
+    T const* hi_y = nullptr;
+    T const* hi_z = nullptr;
+};
+
+template <class T>
+[[nodiscard]] inline Aabb<T> box_at(BoxArrays<T> const& boxes, int i) noexcept {
+    return {Vec3<T>(boxes.lo_x[i], boxes.lo_y[i], boxes.lo_z[i]), Vec3<T>(boxes.hi_x[i], boxes.hi_y[i], boxes.hi_z[i])};
+}
+
+// The boxes from `begin` on.
+template <class T>
+[[nodiscard]] inline BoxArrays<T> boxes_from(BoxArrays<T> const& boxes, int begin) noexcept {
+    return {boxes.lo_x + begin, boxes.lo_y + begin, boxes.lo_z + begin,
+            boxes.hi_x + begin, boxes.hi_y + begin, boxes.hi_z + begin};
+}
+
 // Empty as soon as one axis has lo > hi, or a NaN.
 template <class T>
 [[nodiscard]] inline bool is_empty(Aabb<T> const& box) noexcept {
@@ -368,7 +392,8 @@ enum class Fault : std::uint32_t {
     invalid_plane = 1u << 12,   // a shadow plane that contains the light or the eye, or has no normal
     bad_projection = 1u << 13,  // a given projection matrix from which no view volume can be read
     precision_lost = 1u << 14,  // coordinates too large for the scalar type to keep texels still; use double
-    warp_faded = 1u << 15       // light and view are nearly parallel: the warp gave way to a uniform map
+    warp_faded = 1u << 15,      // light and view are nearly parallel: the warp gave way to a uniform map
+    storage_too_small = 1u << 16  // the caller's arrays are shorter than the result needs
 };
 
 struct Faults {
@@ -413,6 +438,7 @@ struct Faults {
         case Fault::bad_projection: return "no view volume can be read from the projection matrix";
         case Fault::precision_lost: return "coordinates are too large for this scalar type to keep texels still";
         case Fault::warp_faded: return "light and view are nearly parallel, the warp gave way to a uniform map";
+        case Fault::storage_too_small: return "the storage given is smaller than the result needs";
     }
     return "no fault";
 }
@@ -850,14 +876,34 @@ template <class T>
 template <class T>
 inline void close_splits(Splits<T>& splits, T z_near, T z_far) noexcept {
     if (splits.count == 0) return;
-    int kept = 0;
     splits.plane[0] = z_near;
+    splits.plane[splits.count] = z_far;
+    bool ordered = true;
+    for (int i = 0; i < splits.count; ++i) ordered = ordered & (splits.plane[i] < splits.plane[i + 1]);
+    if (ordered) return;
+    int kept = 0;
     for (int i = 1; i < splits.count; ++i)
         if (splits.plane[i] > splits.plane[kept] && splits.plane[i] < z_far) splits.plane[++kept] = splits.plane[i];
     splits.plane[++kept] = z_far;
     if (kept != splits.count) splits.faults |= Fault::count_clamped;
     for (int i = kept + 1; i <= splits.count; ++i) splits.plane[i] = T(0);
     splits.count = kept;
+}
+
+// power[i] = ratio^(i / count), 0 < i < count. Where count is a power of two, from square roots alone: a pow costs more
+// than all else in a fit. Twice as many hold the same values at every other place, to the bit.
+template <class T>
+inline void powers_of_ratio(T ratio, int count, T* power) noexcept {
+    if ((count & (count - 1)) != 0) {
+        for (int i = 1; i < count; ++i) power[i] = std::pow(ratio, T(i) / T(count));
+        return;
+    }
+    power[0] = T(1);
+    T root = ratio;
+    for (int step = count / 2; step > 0; step /= 2) {
+        root = std::sqrt(root);
+        for (int i = step; i < count; i += 2 * step) power[i] = power[i - step] * root;
+    }
 }
 
 template <class T>
@@ -882,11 +928,18 @@ template <class T>
     if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
     T const ratio = has_ratio ? z_far / z_near : T(1 << 20);
     T const log_near = has_ratio ? z_near : z_far / ratio;
-    for (int i = 1; i < splits.count; ++i) {
-        T const fraction = T(i) / T(splits.count);
-        T const uniform = z_near + (z_far - z_near) * fraction;
-        T const logarithmic = weight > T(0) ? log_near * std::pow(ratio, fraction) : T(0);
-        splits.plane[i] = weight * logarithmic + (T(1) - weight) * uniform;
+    auto const blended = [&](T fraction, T power) {
+        return weight * (log_near * power) + (T(1) - weight) * (z_near + (z_far - z_near) * fraction);
+    };
+    if (splits.count == 4 && weight > T(0)) {
+        // What most renderers ask for, without a loop; the same bits.
+        T const half = std::sqrt(ratio), quarter = std::sqrt(half);
+        splits.plane[1] = blended(T(0.25), quarter);
+        splits.plane[2] = blended(T(0.5), half);
+        splits.plane[3] = blended(T(0.75), half * quarter);
+    } else {
+        if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
+        for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
     }
     detail::close_splits(splits, z_near, z_far);
     return splits;
@@ -1001,6 +1054,408 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/reach.hpp ========
+//
+// How far numbers may reach before arithmetic on them leaves the range of float: the one limit of all fits. What lies
+// beyond is not visible; boxes alone may be larger, since they are cut to what is in reach first.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Metres: a hundred light years. Squares stay finite in float.
+template <class T>
+inline constexpr T farthest_metres = T(1e18);
+
+// Its inverse: lengths below have reciprocals that are too large.
+template <class T>
+inline constexpr T least_metres = T(1e-18);
+
+template <class T>
+[[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
+    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
+}
+
+template <class T>
+[[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
+    return std::fmax(largest_of(box.lo), largest_of(box.hi));
+}
+
+// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
+// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
+[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x80000000u - 0x5d800000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x8000000000000000u - 0x43b0000000000000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
+    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
+}
+
+// Unit to a thousandth, as light_basis makes them for every light that is usable.
+template <class T>
+[[nodiscard]] inline bool has_unit_axes(LightBasis<T> const& basis) noexcept {
+    auto const is_unit = [](Vec3<T> const& axis) {
+        return all_finite(axis) && largest_of(axis) < T(2) && std::abs(glm::dot(axis, axis) - T(1)) <= T(1e-3);
+    };
+    return is_unit(basis.x) && is_unit(basis.y) && is_unit(basis.depth);
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/fit_sphere.hpp ========
+//
+// The smallest ball around a slice: the fit that does not change when the camera turns. Put it on a texel grid and
+// shadow edges stand still. A ball wastes what a box would use (about half of the texels, near half a right angle
+// more); use fit_box where crawling edges do not show.
+//
+// Source: the closed form for symmetric perspective is that of lxjk, "Tight bounding sphere for cascaded shadow maps"
+// (2017). Departures: orthographic and off-centre views (stereo, jitter, tiles) get the exact smallest ball too, and
+// the radius is computed in view space and scaled, so that it is the same to the last bit wherever the camera stands.
+//
+//   far face decides           both faces decide
+//    ________                    ______
+//    \      /   centre on        \    /    centre between,
+//     \    /    the far face      |  |     all eight corners
+//      \  /                       |  |     on the sphere
+
+namespace shadowmath {
+inline namespace v0 {
+
+namespace detail {
+
+// The smallest ball of eight points that lie within a few units of the origin.
+// It is the circumsphere of two, three or four of them. Any centre is good with the radius that it needs, so the least
+// of those radii is the answer: no test has a tolerance, and a flat set of four costs nothing but a bad candidate.
+template <class T>
+[[nodiscard]] inline Sphere<T> smallest_ball(std::array<Vec3<T>, 8> const& points) noexcept {
+    Sphere<T> best{Vec3<T>(T(0)), std::numeric_limits<T>::max()};  // the radius is squared until the end
+    auto const consider = [&](Vec3<T> const& center) {
+        T needed = T(0);
+        for (Vec3<T> const& point : points) {
+            Vec3<T> const arm = point - center;
+            T const square = glm::dot(arm, arm);
+            needed = square > needed ? square : needed;
+        }
+        if (needed < best.radius) best = {center, needed};
+    };
+    for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t j = i + 1; j < 8; ++j) {
+            Vec3<T> const a = points[j] - points[i];
+            consider(points[i] + a * T(0.5));
+            for (std::size_t k = j + 1; k < 8; ++k) {
+                Vec3<T> const b = points[k] - points[i], normal = glm::cross(a, b);
+                T const aa = glm::dot(a, a), bb = glm::dot(b, b), area2 = glm::dot(normal, normal);
+                if (area2 > T(0)) consider(points[i] + glm::cross(aa * b - bb * a, normal) / (T(2) * area2));
+                for (std::size_t l = k + 1; l < 8; ++l) {
+                    Vec3<T> const d = points[l] - points[i];
+                    T const volume = glm::dot(normal, d);
+                    if (volume == T(0)) continue;
+                    Vec3<T> const sum = aa * glm::cross(b, d) + bb * glm::cross(d, a) + glm::dot(d, d) * normal;
+                    consider(points[i] + sum / (T(2) * volume));
+                }
+            }
+        }
+    }
+    best.radius = std::sqrt(best.radius);
+    return best;
+}
+
+// A perspective slice whose far plane is at depth 1; view space is (right, up, forward).
+template <class T>
+[[nodiscard]] inline Sphere<T> ball_of_unit_slice(ViewVolume<T> const& view, T n) noexcept {
+    if (view.left == -view.right && view.bottom == -view.top) {
+        T const k2 = view.right * view.right + view.top * view.top;  // k: corner radius per metre of depth
+        if (k2 * (T(1) + n) >= T(1) - n) return {Vec3<T>(T(0), T(0), T(1)), std::sqrt(k2)};
+        T const c = T(0.5) * (T(1) + n) * (T(1) + k2), behind = T(1) - c;
+        return {Vec3<T>(T(0), T(0), c), std::sqrt(behind * behind + k2)};
+    }
+    std::array<Vec3<T>, 8> points;
+    for (std::size_t i = 0; i < 8; ++i) {
+        T const depth = (i & 4u) != 0 ? T(1) : n;
+        points[i] = Vec3<T>(((i & 1u) != 0 ? view.right : view.left) * depth,
+                            ((i & 2u) != 0 ? view.top : view.bottom) * depth, depth);
+    }
+    return smallest_ball(points);
+}
+
+}  // namespace detail
+
+// Holds all eight corners, each to the rounding of its own world coordinates, and no smaller ball does, but for a few
+// ulp. World centre, metres. The radius depends on sides, near and far only: bit for bit the same for every pose.
+// Radius 0: there is no such ball, because faults_of(slice) is not empty, z_far is infinite, or something lies beyond
+// 1e18 m.
+template <class T>
+[[nodiscard]] inline Sphere<T> bounding_sphere(ViewVolume<T> const& slice) noexcept {
+    if (faults_of(slice).any() || is_positive_infinity(&slice.z_far)) return {};
+    bool const flat = slice.kind == ViewKind::orthographic;
+    Vec3<T> const &p = slice.pose.position, &f = slice.pose.forward, &r = slice.pose.right, &u = slice.pose.up;
+    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
+                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) ||
+        !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
+        (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
+        return {};
+    T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
+    Sphere<T> ball;
+    if (flat) {
+        T const half = T(0.5) / unit;
+        Vec3<T> const extent((slice.right - slice.left) * half, (slice.top - slice.bottom) * half,
+                             (slice.z_far - slice.z_near) * half);
+        ball.center = Vec3<T>((slice.left + slice.right) * half, (slice.bottom + slice.top) * half,
+                              (slice.z_near + slice.z_far) * half);
+        ball.radius = std::sqrt(glm::dot(extent, extent));
+    } else {
+        ball = detail::ball_of_unit_slice(slice, slice.z_near / slice.z_far);
+    }
+    // Up by what the coordinates of corner and centre were rounded by.
+    T const slack = T(8) * std::numeric_limits<T>::epsilon();
+    return {p + (f * ball.center.z + r * ball.center.x + u * ball.center.y) * unit,
+            (ball.radius + slack * (T(1) + ball.radius)) * unit};
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/lanes.hpp ========
+//
+// Four numbers that are computed with as one: a register where the compiler has vectors of float, an array elsewhere.
+// The same operations in the same order either way, so the same bits.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+template <class T>
+struct Lanes {
+    T at[4];
+
+    [[nodiscard]] static Lanes of(T a, T b, T c, T d) noexcept { return {{a, b, c, d}}; }
+    [[nodiscard]] T operator[](int i) const noexcept { return at[i]; }
+
+    friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept {
+        return {{a.at[0] + b.at[0], a.at[1] + b.at[1], a.at[2] + b.at[2], a.at[3] + b.at[3]}};
+    }
+    friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept {
+        return {{a.at[0] - b.at[0], a.at[1] - b.at[1], a.at[2] - b.at[2], a.at[3] - b.at[3]}};
+    }
+    friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept {
+        return {{a.at[0] * b.at[0], a.at[1] * b.at[1], a.at[2] * b.at[2], a.at[3] * b.at[3]}};
+    }
+    friend Lanes operator/(Lanes const& a, Lanes const& b) noexcept {
+        return {{a.at[0] / b.at[0], a.at[1] / b.at[1], a.at[2] / b.at[2], a.at[3] / b.at[3]}};
+    }
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        auto const less = [](T x, T y) { return x < y ? x : y; };
+        return {{less(a.at[0], b.at[0]), less(a.at[1], b.at[1]), less(a.at[2], b.at[2]), less(a.at[3], b.at[3])}};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        auto const more = [](T x, T y) { return x > y ? x : y; };
+        return {{more(a.at[0], b.at[0]), more(a.at[1], b.at[1]), more(a.at[2], b.at[2]), more(a.at[3], b.at[3])}};
+    }
+};
+
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
+
+template <>
+struct Lanes<float> {
+    using Register [[gnu::vector_size(16)]] = float;
+    Register at;
+
+    [[nodiscard]] static Lanes of(float a, float b, float c, float d) noexcept { return {Register{a, b, c, d}}; }
+    [[nodiscard]] float operator[](int i) const noexcept { return at[i]; }
+
+    friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept { return {a.at + b.at}; }
+    friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
+    friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
+    friend Lanes operator/(Lanes const& a, Lanes const& b) noexcept { return {a.at / b.at}; }
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept { return {a.at < b.at ? a.at : b.at}; }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept { return {a.at > b.at ? a.at : b.at}; }
+};
+
+#endif
+
+template <class T>
+[[nodiscard]] inline Lanes<T> all_four(T value) noexcept {
+    return Lanes<T>::of(value, value, value, value);
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/margin.hpp ========
+//
+// How many texels of a map's side are left for the body when a filter must not read outside: the kernel needs a margin
+// on either side, and a fit that promises one must take it out of the map.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// map_too_small where fewer than three texels are left: the body's own, and one to either side that snapping may take.
+// A negative margin counts as none (clamped_option).
+template <class T>
+[[nodiscard]] inline Faults faults_of_margin(int map_size, T const& margin_texels) noexcept {
+    if (!all_finite(&margin_texels, 1)) return Fault::not_finite;
+    Faults faults;
+    if (margin_texels < T(0)) faults |= Fault::clamped_option;
+    T const margin = margin_texels > T(0) ? margin_texels : T(0);
+    if (!(T(map_size) >= T(3) + T(2) * margin)) faults |= Fault::map_too_small;
+    return faults;
+}
+
+// Texels between the margins, at least one whatever is given.
+template <class T>
+[[nodiscard]] inline T usable_texels(int map_size, T const& margin_texels) noexcept {
+    if (!all_finite(&margin_texels, 1) || !(margin_texels < T(map_size))) return T(1);
+    T const left = T(map_size) - T(2) * (margin_texels > T(0) ? margin_texels : T(0));
+    return left > T(1) ? left : T(1);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/slices.hpp ========
+//
+// All slices of a view at once, and nothing but the slices: what fit_box and fit_sphere with texel_grid give, twenty
+// times as fast as from an inverse matrix and eight corners. For thousands of views, and for renderers whose casters
+// are drawn with depth clamp; where scene bounds are to decide how deep a map is, use fit_cascades.
+//
+//   Along a light axis a, what is seen from depth n to f spans      a.eye + [min(n k, f k), max(n K, f K)],
+//   k = a.forward + the least of a.right * side_x + a.up * side_y,  K with the largest.
+//
+// Four dot products an axis therefore serve every slice, no corner is computed, and the three axes are the lanes of one
+// vector: the loops over `axis` below are one instruction a line.
+//
+// Source: ours; the closed forms of the spheres are those of fit_sphere.
+
+namespace shadowmath {
+inline namespace v0 {
+
+namespace detail {
+
+// A view in light space. Lanes are the light's axes: x, y, depth; the fourth is zero.
+template <class T>
+struct ViewInLight {
+    Lanes<T> x, y, z;   // columns of the rotation into light space
+    Lanes<T> eye_lo;    // at depth 0, the least
+    Lanes<T> eye_hi;    // and the largest
+    Lanes<T> slope_lo;  // by which they grow with depth
+    Lanes<T> slope_hi;  // all four outward by what a coordinate may be rounded by
+};
+
+template <class T>
+[[nodiscard]] inline T absolute_sum(Vec3<T> const& v) noexcept {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+// False, and `seen` not written, where a number is not finite or beyond 2^60 m, or a side is crossed.
+template <class T>
+[[nodiscard]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view, ViewInLight<T>& seen) noexcept {
+    // NOTE: whole runs of numbers are copied, as vectors are; what is written one by one would wait to be read as one.
+    static_assert(sizeof view.pose == 12 * sizeof(T) && sizeof basis == 9 * sizeof(T), "numbers without a gap");
+    T of_view[16], of_basis[8];
+    std::memcpy(of_view, &view, sizeof of_view);
+    std::memcpy(of_basis, &basis, sizeof of_basis);
+    auto beyond = beyond_reach(std::abs(basis.depth.z));
+    for (int i = 0; i < 16; ++i) beyond |= beyond_reach(std::abs(of_view[i]));
+    for (int i = 0; i < 8; ++i) beyond |= beyond_reach(std::abs(of_basis[i]));
+    if (beyond >> (8 * sizeof beyond - 1) != 0 || !(view.left < view.right) || !(view.bottom < view.top)) return false;
+    seen.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
+    seen.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
+    seen.z = Lanes<T>::of(basis.x.z, basis.y.z, basis.depth.z, T(0));
+    auto const along = [&seen](Vec3<T> const& v) {
+        return seen.x * all_four(v.x) + seen.y * all_four(v.y) + seen.z * all_four(v.z);
+    };
+    Pose<T> const& pose = view.pose;
+    Lanes<T> const eye = along(pose.position), forward = along(pose.forward);
+    Lanes<T> const right = along(pose.right), up = along(pose.up);
+    Lanes<T> const a = right * all_four(view.left), b = right * all_four(view.right);
+    Lanes<T> const c = up * all_four(view.bottom), d = up * all_four(view.top);
+    Lanes<T> const lo = least(a, b) + least(c, d), hi = largest(a, b) + largest(c, d);
+    bool const flat = view.kind == ViewKind::orthographic;
+    T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
+    constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
+    Lanes<T> const rounding = all_four(unit * (absolute_sum(pose.position) + (flat ? sides : T(0))));
+    Lanes<T> const rounding_slope = all_four(unit * (T(1) + (flat ? T(0) : sides)));
+    seen.eye_lo = (flat ? eye + lo : eye) - rounding;
+    seen.eye_hi = (flat ? eye + hi : eye) + rounding;
+    seen.slope_lo = (flat ? forward : forward + lo) - rounding_slope;
+    seen.slope_hi = (flat ? forward : forward + hi) + rounding_slope;
+    return true;
+}
+
+// Neither so near that a reciprocal overflows nor out of reach; increasing, as all functions make them.
+template <class T>
+[[nodiscard]] inline bool in_range(Splits<T> const& splits) noexcept {
+    T const &first = splits.plane[0], &last = splits.plane[splits.count];
+    return splits.count > 0 && all_finite(&first, 1) && all_finite(&last, 1) && first >= T(0) &&
+           splits.plane[1] >= least_metres<T> && last <= farthest_metres<T>;
+}
+
+// Extent of the map on each axis, and its middle, in the convention.
+template <class T>
+struct MapInLanes {
+    Lanes<T> extent;
+    Lanes<T> middle;  // 1 in the fourth: w
+};
+
+// `side`: how much of [-1, 1] is used.
+template <class T>
+[[nodiscard]] inline MapInLanes<T> map_in_lanes(ClipSpace clip, T side) noexcept {
+    T const y = clip.ndc_y == YAxis::up ? side : -side;
+    T depth = T(1), middle = T(0.5);
+    if (clip.depth == DepthOrder::one_to_zero) depth = T(-1);
+    if (clip.depth == DepthOrder::minus_one_to_one) depth = T(2), middle = T(0);
+    return {Lanes<T>::of(side, y, depth, T(0)), Lanes<T>::of(T(0), T(0), middle, T(1))};
+}
+
+template <class T>
+inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lanes<T> const& offset,
+                          Mat4<T>& clip_from_world) noexcept {
+    Lanes<T> const columns[4] = {seen.x * scale, seen.y * scale, seen.z * scale, offset};
+    static_assert(sizeof columns == sizeof clip_from_world, "columns without a gap");
+    std::memcpy(&clip_from_world, columns, sizeof columns);
+}
+
+}  // namespace detail
+
+// clip_from_world[i] is the map of slice i: the smallest light-space box around it, and no depth but the slice's own.
+// Each corner of each slice is inside. `border` is the part of the map's side that is kept free on each of the four
+// sides, for filters: 2.0f / 2048 for two texels; [0, 0.49]. Writes splits.count matrices and says true; or nowhere()
+// and false, where a number is not finite or beyond 2^60 m, a side is crossed, or the border outside its range.
+template <class T>
+[[nodiscard]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
+                                          Splits<T> const& splits, T border, ClipSpace clip,
+                                          Mat4<T>* clip_from_world) noexcept {
+    using Lanes = detail::Lanes<T>;
+    detail::ViewInLight<T> seen;
+    if (!detail::look(basis, view, seen) || !detail::in_range(splits) || !(border >= T(0) && border <= T(0.49))) {
+        for (int i = 0; i < splits.count; ++i) clip_from_world[i] = nowhere<T>();
+        return false;
+    }
+    detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(2) - T(4) * border);
+    for (int i = 0; i < splits.count; ++i) {
+        Lanes const n = detail::all_four(splits.plane[i]), f = detail::all_four(splits.plane[i + 1]);
+        Lanes const lo = seen.eye_lo + least(n * seen.slope_lo, f * seen.slope_lo);
+        Lanes const hi = seen.eye_hi + largest(n * seen.slope_hi, f * seen.slope_hi);
+        Lanes const scale = map.extent / (hi - lo);
+        detail::write_columns(seen, scale, map.middle - (lo + hi) * detail::all_four(T(0.5)) * scale,
+                              clip_from_world[i]);
+    }
+    return true;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/light_box.hpp ========
 //
 // What every fit for a directional light gives: a box in light space, and the one matrix that makes of it.
@@ -1052,77 +1507,6 @@ template <class T>
     return moved;
 }
 
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/margin.hpp ========
-//
-// How many texels of a map's side are left for the body when a filter must not read outside: the kernel needs a margin
-// on either side, and a fit that promises one must take it out of the map.
-
-namespace shadowmath {
-inline namespace v0 {
-
-// map_too_small where fewer than three texels are left: the body's own, and one to either side that snapping may take.
-// A negative margin counts as none (clamped_option).
-template <class T>
-[[nodiscard]] inline Faults faults_of_margin(int map_size, T const& margin_texels) noexcept {
-    if (!all_finite(&margin_texels, 1)) return Fault::not_finite;
-    Faults faults;
-    if (margin_texels < T(0)) faults |= Fault::clamped_option;
-    T const margin = margin_texels > T(0) ? margin_texels : T(0);
-    if (!(T(map_size) >= T(3) + T(2) * margin)) faults |= Fault::map_too_small;
-    return faults;
-}
-
-// Texels between the margins, at least one whatever is given.
-template <class T>
-[[nodiscard]] inline T usable_texels(int map_size, T const& margin_texels) noexcept {
-    if (!all_finite(&margin_texels, 1) || !(margin_texels < T(map_size))) return T(1);
-    T const left = T(map_size) - T(2) * (margin_texels > T(0) ? margin_texels : T(0));
-    return left > T(1) ? left : T(1);
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/reach.hpp ========
-//
-// How far numbers may reach before arithmetic on them leaves the range of float: the one limit of all fits. What lies
-// beyond is not visible; boxes alone may be larger, since they are cut to what is in reach first.
-
-namespace shadowmath {
-inline namespace v0 {
-namespace detail {
-
-// Metres: a hundred light years. Squares stay finite in float.
-template <class T>
-inline constexpr T farthest_metres = T(1e18);
-
-// Its inverse: lengths below have reciprocals that are too large.
-template <class T>
-inline constexpr T least_metres = T(1e-18);
-
-template <class T>
-[[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
-    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
-}
-
-template <class T>
-[[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
-    return std::fmax(largest_of(box.lo), largest_of(box.hi));
-}
-
-// Unit to a thousandth, as light_basis makes them for every light that is usable.
-template <class T>
-[[nodiscard]] inline bool has_unit_axes(LightBasis<T> const& basis) noexcept {
-    auto const is_unit = [](Vec3<T> const& axis) {
-        return all_finite(axis) && largest_of(axis) < T(2) && std::abs(glm::dot(axis, axis) - T(1)) <= T(1e-3);
-    };
-    return is_unit(basis.x) && is_unit(basis.y) && is_unit(basis.depth);
-}
-
-}  // namespace detail
 }  // namespace v0
 }  // namespace shadowmath
 
@@ -1354,117 +1738,48 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/fit_sphere.hpp ========
+// ======== shadowmath/wide.hpp ========
 //
-// The smallest ball around a slice: the fit that does not change when the camera turns. Put it on a texel grid and
-// shadow edges stand still. A ball wastes what a box would use (about half of the texels, near half a right angle
-// more); use fit_box where crawling edges do not show.
+// How loops over arrays get the whole width of the machine although their user compiles for the oldest one: the same
+// portable loop is compiled twice, plain and for AVX2, and the processor is asked once a call.
 //
-// Source: the closed form for symmetric perspective is that of lxjk, "Tight bounding sphere for cascaded shadow maps"
-// (2017). Departures: orthographic and off-centre views (stereo, jitter, tiles) get the exact smallest ball too, and
-// the radius is computed in view space and scaled, so that it is the same to the last bit wherever the camera stands.
+// There are no intrinsics and there is no second source. AVX2 is taken without fused multiplication, so that both give
+// the same bits. A build that is told of AVX2 or more (-march=native), another processor and another compiler have one
+// version only.
 //
-//   far face decides           both faces decide
-//    ________                    ______
-//    \      /   centre on        \    /    centre between,
-//     \    /    the far face      |  |     all eight corners
-//      \  /                       |  |     on the sphere
+// For a compiler to make vectors of it at -O2, a loop has a constant length, writes to local arrays or to another type
+// than it reads, and has neither branches nor loops in it.
 
 namespace shadowmath {
 inline namespace v0 {
-
 namespace detail {
 
-// The smallest ball of eight points that lie within a few units of the origin.
-// It is the circumsphere of two, three or four of them. Any centre is good with the radius that it needs, so the least
-// of those radii is the answer: no test has a tolerance, and a flat set of four costs nothing but a bad candidate.
-template <class T>
-[[nodiscard]] inline Sphere<T> smallest_ball(std::array<Vec3<T>, 8> const& points) noexcept {
-    Sphere<T> best{Vec3<T>(T(0)), std::numeric_limits<T>::max()};  // the radius is squared until the end
-    auto const consider = [&](Vec3<T> const& center) {
-        T needed = T(0);
-        for (Vec3<T> const& point : points) {
-            Vec3<T> const arm = point - center;
-            T const square = glm::dot(arm, arm);
-            needed = square > needed ? square : needed;
-        }
-        if (needed < best.radius) best = {center, needed};
-    };
-    for (std::size_t i = 0; i < 8; ++i) {
-        for (std::size_t j = i + 1; j < 8; ++j) {
-            Vec3<T> const a = points[j] - points[i];
-            consider(points[i] + a * T(0.5));
-            for (std::size_t k = j + 1; k < 8; ++k) {
-                Vec3<T> const b = points[k] - points[i], normal = glm::cross(a, b);
-                T const aa = glm::dot(a, a), bb = glm::dot(b, b), area2 = glm::dot(normal, normal);
-                if (area2 > T(0)) consider(points[i] + glm::cross(aa * b - bb * a, normal) / (T(2) * area2));
-                for (std::size_t l = k + 1; l < 8; ++l) {
-                    Vec3<T> const d = points[l] - points[i];
-                    T const volume = glm::dot(normal, d);
-                    if (volume == T(0)) continue;
-                    Vec3<T> const sum = aa * glm::cross(b, d) + bb * glm::cross(d, a) + glm::dot(d, d) * normal;
-                    consider(points[i] + sum / (T(2) * volume));
-                }
-            }
-        }
-    }
-    best.radius = std::sqrt(best.radius);
-    return best;
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__) && !defined(_WIN32)
+
+template <class Loop>
+[[gnu::target("avx2")]] inline void run_in_avx2(Loop const& loop) noexcept {
+    loop();
 }
 
-// A perspective slice whose far plane is at depth 1; view space is (right, up, forward).
-template <class T>
-[[nodiscard]] inline Sphere<T> ball_of_unit_slice(ViewVolume<T> const& view, T n) noexcept {
-    if (view.left == -view.right && view.bottom == -view.top) {
-        T const k2 = view.right * view.right + view.top * view.top;  // k: corner radius per metre of depth
-        if (k2 * (T(1) + n) >= T(1) - n) return {Vec3<T>(T(0), T(0), T(1)), std::sqrt(k2)};
-        T const c = T(0.5) * (T(1) + n) * (T(1) + k2), behind = T(1) - c;
-        return {Vec3<T>(T(0), T(0), c), std::sqrt(behind * behind + k2)};
-    }
-    std::array<Vec3<T>, 8> points;
-    for (std::size_t i = 0; i < 8; ++i) {
-        T const depth = (i & 4u) != 0 ? T(1) : n;
-        points[i] = Vec3<T>(((i & 1u) != 0 ? view.right : view.left) * depth,
-                            ((i & 2u) != 0 ? view.top : view.bottom) * depth, depth);
-    }
-    return smallest_ball(points);
+// `loop` is a struct whose operator() is [[gnu::always_inline]].
+template <class Loop>
+inline void run_widely(Loop const& loop) noexcept {
+    if (__builtin_cpu_supports("avx2"))
+        run_in_avx2(loop);
+    else
+        loop();
 }
+
+#else
+
+template <class Loop>
+inline void run_widely(Loop const& loop) noexcept {
+    loop();
+}
+
+#endif
 
 }  // namespace detail
-
-// Holds all eight corners, each to the rounding of its own world coordinates, and no smaller ball does, but for a few
-// ulp. World centre, metres. The radius depends on sides, near and far only: bit for bit the same for every pose.
-// Radius 0: there is no such ball, because faults_of(slice) is not empty, z_far is infinite, or something lies beyond
-// 1e18 m.
-template <class T>
-[[nodiscard]] inline Sphere<T> bounding_sphere(ViewVolume<T> const& slice) noexcept {
-    if (faults_of(slice).any() || is_positive_infinity(&slice.z_far)) return {};
-    bool const flat = slice.kind == ViewKind::orthographic;
-    Vec3<T> const &p = slice.pose.position, &f = slice.pose.forward, &r = slice.pose.right, &u = slice.pose.up;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
-    if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) ||
-        !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
-        (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
-        return {};
-    T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
-    Sphere<T> ball;
-    if (flat) {
-        T const half = T(0.5) / unit;
-        Vec3<T> const extent((slice.right - slice.left) * half, (slice.top - slice.bottom) * half,
-                             (slice.z_far - slice.z_near) * half);
-        ball.center = Vec3<T>((slice.left + slice.right) * half, (slice.bottom + slice.top) * half,
-                              (slice.z_near + slice.z_far) * half);
-        ball.radius = std::sqrt(glm::dot(extent, extent));
-    } else {
-        ball = detail::ball_of_unit_slice(slice, slice.z_near / slice.z_far);
-    }
-    // Up by what the coordinates of corner and centre were rounded by.
-    T const slack = T(8) * std::numeric_limits<T>::epsilon();
-    return {p + (f * ball.center.z + r * ball.center.x + u * ball.center.y) * unit,
-            (ball.radius + slack * (T(1) + ball.radius)) * unit};
-}
-
 }  // namespace v0
 }  // namespace shadowmath
 
@@ -1616,6 +1931,155 @@ template <class T>
         }
     }
     return bounds;
+}
+
+namespace detail {
+
+inline constexpr int bodies_at_once = 16;
+
+// The least and the largest NDC so far, one of each for every place in a block.
+template <class T>
+struct BoundsInLanes {
+    T lo[3][bodies_at_once];
+    T hi[3][bodies_at_once];
+};
+
+// One block of boxes. `plain` says which of them were taken: all eight corners at w >= w_min, nothing empty, nothing
+// too large. The others are left to the caller, but for those wholly behind w_min, which have no bounds.
+template <class T>
+struct BoundsBlock {
+    Mat4<T> const& m;
+    T w_min;
+    BoxArrays<T> const& boxes;
+    BoundsInLanes<T>& bounds;
+    std::uint32_t* plain;
+    std::uint32_t* behind;
+
+    // Products of a row with both ends of each axis: a corner is X + Y + Z, so eight corners are six products.
+    struct Row {
+        T x0, x1, y0, y1, z0, z1;
+    };
+    [[gnu::always_inline]] Row row_of(int r, int i) const noexcept {
+        return {m[0][r] * boxes.lo_x[i], m[0][r] * boxes.hi_x[i],           m[1][r] * boxes.lo_y[i],
+                m[1][r] * boxes.hi_y[i], m[2][r] * boxes.lo_z[i] + m[3][r], m[2][r] * boxes.hi_z[i] + m[3][r]};
+    }
+    [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
+    [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
+
+    [[gnu::always_inline]] static T sum(Row const& row, int corner) noexcept {
+        return (corner & 1 ? row.x1 : row.x0) + (corner & 2 ? row.y1 : row.y0) + (corner & 4 ? row.z1 : row.z0);
+    }
+
+    // The four rows of a matrix with (0, 0, 0, w) below: extents add up, and one quotient at the end serves all.
+    [[gnu::always_inline]] void affine() const noexcept {
+        for (int r = 0; r < 3; ++r) {
+            for (int i = 0; i < bodies_at_once; ++i) {
+                Row const at = row_of(r, i);
+                T const lo = less(at.x0, at.x1) + less(at.y0, at.y1) + less(at.z0, at.z1);
+                T const hi = more(at.x0, at.x1) + more(at.y0, at.y1) + more(at.z0, at.z1);
+                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
+                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+            }
+        }
+    }
+
+    [[gnu::always_inline]] void perspective() const noexcept {
+        T inverse[8][bodies_at_once];
+        for (int i = 0; i < bodies_at_once; ++i) {
+            Row const w = row_of(3, i);
+            T const least = less(w.x0, w.x1) + less(w.y0, w.y1) + less(w.z0, w.z1);
+            T const most = more(w.x0, w.x1) + more(w.y0, w.y1) + more(w.z0, w.z1);
+            behind[i] = (most < w_min) & (plain[i] != 0) ? 1u : 0u;
+            plain[i] = least >= w_min ? plain[i] : 0u;
+            inverse[0][i] = T(1) / sum(w, 0), inverse[1][i] = T(1) / sum(w, 1);
+            inverse[2][i] = T(1) / sum(w, 2), inverse[3][i] = T(1) / sum(w, 3);
+            inverse[4][i] = T(1) / sum(w, 4), inverse[5][i] = T(1) / sum(w, 5);
+            inverse[6][i] = T(1) / sum(w, 6), inverse[7][i] = T(1) / sum(w, 7);
+        }
+        for (int r = 0; r < 3; ++r) {
+            for (int i = 0; i < bodies_at_once; ++i) {
+                Row const at = row_of(r, i);
+                T const a = sum(at, 0) * inverse[0][i], b = sum(at, 1) * inverse[1][i];
+                T const c = sum(at, 2) * inverse[2][i], d = sum(at, 3) * inverse[3][i];
+                T const e = sum(at, 4) * inverse[4][i], f = sum(at, 5) * inverse[5][i];
+                T const g = sum(at, 6) * inverse[6][i], h = sum(at, 7) * inverse[7][i];
+                T const lo = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
+                T const hi = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
+                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
+                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+            }
+        }
+    }
+
+    [[gnu::always_inline]] void operator()() const noexcept {
+        decltype(beyond_reach(T(0))) beyond = 0;
+        for (int i = 0; i < bodies_at_once; ++i) {
+            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
+                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
+            beyond |= beyond_reach(sizes);
+        }
+        if (beyond >> (8 * sizeof beyond - 1) != 0) {
+            for (int i = 0; i < bodies_at_once; ++i) plain[i] = behind[i] = 0;
+            return;
+        }
+        for (int i = 0; i < bodies_at_once; ++i) {
+            plain[i] =
+                ((boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]))
+                    ? 1u
+                    : 0u;
+            behind[i] = 0;
+        }
+        bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+        if (flat)
+            affine();
+        else
+            perspective();
+    }
+};
+
+}  // namespace detail
+
+// The bounds of many boxes together: what projected_bounds of each, merged, would give, to rounding; a box that is
+// empty or not finite adds nothing. For a w_min that is not positive one by one, and slowly, unless the matrix is
+// affine.
+template <class T>
+[[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, BoxArrays<T> const& boxes, int count,
+                                              T w_min) noexcept {
+    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return {};
+    Mat4<T> const& m = clip_from_world;
+    T entry = T(0);
+    for (int column = 0; column < 4; ++column)
+        for (int r = 0; r < 4; ++r) entry = glm::max(entry, std::abs(m[column][r]));
+    bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+    T const w = m[3][3];
+    bool const in_blocks = entry <= T(1e15) && (flat ? w >= T(1e-15) && w >= w_min : w_min >= T(1e-15));
+    Aabb<T> all;
+    detail::BoundsInLanes<T> lanes;
+    for (int r = 0; r < 3; ++r)
+        for (int i = 0; i < detail::bodies_at_once; ++i) {
+            lanes.lo[r][i] = std::numeric_limits<T>::max();
+            lanes.hi[r][i] = std::numeric_limits<T>::lowest();
+        }
+    constexpr int n = detail::bodies_at_once;
+    for (int begin = 0; begin < count; begin += n) {
+        BoxArrays<T> const block = boxes_from(boxes, begin);
+        int const length = count - begin < n ? count - begin : n;
+        std::uint32_t plain[n] = {}, behind[n] = {};
+        if (in_blocks && length == n) detail::run_widely(detail::BoundsBlock<T>{m, w_min, block, lanes, plain, behind});
+        for (int i = 0; i < length; ++i) {
+            if ((plain[i] | behind[i]) != 0) continue;
+            Aabb<T> const box = box_at(block, i);
+            if (all_finite(box) && !is_empty(box)) all = merge(all, projected_bounds(m, corners(box), w_min));
+        }
+    }
+    Aabb<T> in_lanes;
+    for (int r = 0; r < 3; ++r)
+        for (int i = 0; i < n; ++i) {
+            in_lanes.lo[r] = glm::min(in_lanes.lo[r], lanes.lo[r][i]);
+            in_lanes.hi[r] = glm::max(in_lanes.hi[r], lanes.hi[r][i]);
+        }
+    if (is_empty(in_lanes)) return all;
+    return merge(all, flat ? Aabb<T>{in_lanes.lo / w, in_lanes.hi / w} : in_lanes);
 }
 
 }  // namespace v0
@@ -2470,6 +2934,34 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/points.hpp ========
+//
+// Points into a map, many at once. Every technique ends as one matrix, so this is the vertex transform of all of them,
+// the view-dependent map's included: what the thesis does in two products and a division a vertex is one product.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// clip[i] = matrix * (points[i], 1), for `count` points; `clip` holds as many and does not overlap them. Columns are
+// added from the first to the last, so the sum may differ from glm's in its last bits. Nothing is divided.
+template <class T>
+inline void clip_points(Mat4<T> const& matrix, Vec3<T> const* points, int count, Vec4<T>* clip) noexcept {
+    SHADOWMATH_ASSERT(count <= 0 || (points != nullptr && clip != nullptr), "clip_points needs two arrays");
+    using Lanes = detail::Lanes<T>;
+    static_assert(sizeof(Lanes) == sizeof(Vec4<T>), "a point in a register");
+    Lanes column[4];
+    std::memcpy(column, &matrix, sizeof column);
+    for (int i = 0; i < count; ++i) {
+        Vec3<T> const& p = points[i];
+        Lanes const at = column[0] * detail::all_four(p.x) + column[1] * detail::all_four(p.y) +
+                         column[2] * detail::all_four(p.z) + column[3];
+        std::memcpy(clip + i, &at, sizeof at);
+    }
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/vdsm.hpp ========
 //
 // View-dependent shadow map: slide everything along the light onto a shadow plane, look at that from the EYE, keep the
@@ -3039,6 +3531,13 @@ template <class T>
 namespace shadowmath {
 inline namespace v0 {
 
+// matrix * (point, 1) with its order of sums written out, so that a caster, its receiver, every build of GLM and the
+// GLSL twin round alike.
+template <class T>
+[[nodiscard]] inline Vec4<T> transformed(Mat4<T> const& matrix, Vec3<T> const& point) noexcept {
+    return matrix[0] * point.x + (matrix[1] * point.y + (matrix[2] * point.z + matrix[3]));
+}
+
 template <class T>
 struct Projected {
     Vec3<T> at{T(0)};       // after the division
@@ -3050,7 +3549,7 @@ struct Projected {
 template <class T>
 [[nodiscard]] inline Projected<T> projected(Mat4<T> const& matrix, Vec3<T> const& point, T w_min = T(0)) noexcept {
     if (!all_finite(matrix) || !all_finite(point)) return {};
-    Vec4<T> const clip = matrix * Vec4<T>(point, T(1));
+    Vec4<T> const clip = transformed(matrix, point);
     if (!(clip.w > T(0)) || !(clip.w > w_min)) return {};
     Vec3<T> const at = Vec3<T>(clip) / clip.w;
     if (!all_finite(at) || !all_finite(&clip.w, 1)) return {};
@@ -3061,7 +3560,7 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Vec3<T> gain_along(Mat4<T> const& matrix, Projected<T> const& point,
                                         Vec3<T> const& direction) noexcept {
-    Vec4<T> const clip = matrix * Vec4<T>(direction, T(0));
+    Vec4<T> const clip = matrix[0] * direction.x + (matrix[1] * direction.y + matrix[2] * direction.z);
     return (Vec3<T>(clip) - point.at * clip.w) / point.w;
 }
 
@@ -3152,13 +3651,14 @@ template <class T>
 template <class T>
 [[nodiscard]] inline DepthSlope<T> lean(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, T limit) noexcept {
     if (!all_finite(map.clip_from_world)) return {};
-    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    Mat4<T> const texture = texture_from_world(map);
+    Projected<T> const at = projected(texture, point, map.w_min);
     if (!at.in_front) return {};
-    // Along a light ray neither x nor y of NDC changes: it is at a right angle to both of these.
-    Vec3<T> const w(row(map.clip_from_world, 3));
-    Vec3<T> const x = Vec3<T>(row(map.clip_from_world, 0)) - at.at.x * w;
-    Vec3<T> const y = Vec3<T>(row(map.clip_from_world, 1)) - at.at.y * w;
-    return slope(map, map_size, point, glm::cross(safe_normalize(x).direction, safe_normalize(y).direction), limit);
+    // Along a light ray neither u nor v changes: it is at a right angle to both of these.
+    Vec3<T> const w(row(texture, 3));
+    Vec3<T> const u = Vec3<T>(row(texture, 0)) - at.at.x * w;
+    Vec3<T> const v = Vec3<T>(row(texture, 1)) - at.at.y * w;
+    return slope(map, map_size, point, glm::cross(safe_normalize(u).direction, safe_normalize(v).direction), limit);
 }
 
 // The k of the law: matrix * light = (0, 0, k, 0). For a directional light it is the clip depth that a metre along
@@ -3388,51 +3888,6 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/wide.hpp ========
-//
-// How loops over arrays get the whole width of the machine although their user compiles for the oldest one: the same
-// portable loop is compiled twice, plain and for AVX2, and the processor is asked once a call.
-//
-// There are no intrinsics and there is no second source. AVX2 is taken without fused multiplication, so that both give
-// the same bits. A build that is told of AVX2 or more (-march=native), another processor and another compiler have one
-// version only.
-//
-// For a compiler to make vectors of it at -O2, a loop has a constant length, writes to local arrays or to another type
-// than it reads, and has neither branches nor loops in it.
-
-namespace shadowmath {
-inline namespace v0 {
-namespace detail {
-
-#if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__) && !defined(_WIN32)
-
-template <class Loop>
-[[gnu::target("avx2")]] inline void run_in_avx2(Loop const& loop) noexcept {
-    loop();
-}
-
-// `loop` is a struct whose operator() is [[gnu::always_inline]].
-template <class Loop>
-inline void run_widely(Loop const& loop) noexcept {
-    if (__builtin_cpu_supports("avx2"))
-        run_in_avx2(loop);
-    else
-        loop();
-}
-
-#else
-
-template <class Loop>
-inline void run_widely(Loop const& loop) noexcept {
-    loop();
-}
-
-#endif
-
-}  // namespace detail
-}  // namespace v0
-}  // namespace shadowmath
-
 // ======== shadowmath/culling.hpp ========
 //
 // Which maps an object must be drawn into: a bit for each, and the range [first, last] that one instanced draw covers.
@@ -3480,34 +3935,7 @@ struct CasterMaps {
     int map_count = 0;  // those that were never visible count too, and keep their bit clear
 };
 
-// Boxes as structure of arrays: box i is [lo_x[i], hi_x[i]] x ...
-template <class T>
-struct BoxArrays {
-    T const* lo_x = nullptr;
-    T const* lo_y = nullptr;
-    T const* lo_z = nullptr;
-    T const* hi_x = nullptr;
-    T const* hi_y = nullptr;
-    T const* hi_z = nullptr;
-};
-
 namespace detail {
-
-// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
-// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
-[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x80000000u - 0x5d800000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x8000000000000000u - 0x43b0000000000000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
-    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
-}
 
 template <class T>
 [[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
@@ -3737,20 +4165,14 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
                        boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
         "caster_masks needs six arrays of boxes and one of masks");
-    auto const from = [&boxes](int i) {
-        return BoxArrays<T>{boxes.lo_x + i, boxes.lo_y + i, boxes.lo_z + i,
-                            boxes.hi_x + i, boxes.hi_y + i, boxes.hi_z + i};
-    };
     constexpr int n = detail::boxes_at_once;
     for (int begin = 0; begin < count; begin += n) {
-        BoxArrays<T> const block = from(begin);
+        BoxArrays<T> const block = boxes_from(boxes, begin);
         int const length = count - begin < n ? count - begin : n;
         bool in_reach = false;
         if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
         if (in_reach) continue;
-        for (int i = 0; i < length; ++i)
-            masks[begin + i] = caster_mask(maps, Aabb<T>{Vec3<T>(block.lo_x[i], block.lo_y[i], block.lo_z[i]),
-                                                         Vec3<T>(block.hi_x[i], block.hi_y[i], block.hi_z[i])});
+        for (int i = 0; i < length; ++i) masks[begin + i] = caster_mask(maps, box_at(block, i));
     }
 }
 
@@ -3824,7 +4246,7 @@ template <class T>
     Vec2<T> const t = Vec2<T>(gain_along(matrix, point, plane.t)) * half_size;
     T scale = T(0);
     for (T const entry : {s.x, s.y, t.x, t.y}) scale = std::abs(entry) > scale ? std::abs(entry) : scale;
-    if (!(scale > T(0)) || !all_finite(&scale, 1)) return {};
+    if (!all_finite(s) || !all_finite(t) || !(scale > T(0))) return {};
     return {s / scale, t / scale, scale};
 }
 
@@ -4310,6 +4732,12 @@ struct Cover {
     bool complete = false;  // the last one ends within the ratio
 };
 
+template <class T>
+[[nodiscard]] inline T usable_ratio(T const& ratio) noexcept {
+    if (!all_finite(&ratio, 1)) return T(1.05);
+    return ratio < T(1.0001) ? T(1.0001) : (ratio > T(1 << 20) ? T(1 << 20) : ratio);
+}
+
 // A nearer first sample could need ratios beyond 2^20; it joins the first split as it is.
 template <class T>
 [[nodiscard]] inline T first_depth(T lo, T hi) noexcept {
@@ -4358,8 +4786,7 @@ template <class T>
     splits.faults = depths.faults;
     int const most = count < 0 ? 0 : (count > max_splits ? max_splits : count);
     if (most != count) splits.faults |= Fault::count_clamped;
-    T least = all_finite(&least_ratio, 1) ? least_ratio : T(1.05);
-    least = least < T(1.0001) ? T(1.0001) : (least > T(1 << 20) ? T(1 << 20) : least);
+    T const least = detail::usable_ratio(least_ratio);
     if (!all_finite(&least_ratio, 1) || least != least_ratio) splits.faults |= Fault::clamped_option;
     if (depths.counted == 0 || most == 0) return splits;
 
@@ -4395,10 +4822,10 @@ template <class T>
 
 // ======== shadowmath/sdsm.hpp ========
 //
-// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it could
-// see. Indoors, over a plain, down a street they give several times the texels of the best fit to the view volume. Use
-// them when the eye's depth is at hand before the maps are drawn: from a depth prepass, or from the frame before (then
-// widen the boxes by what may have moved).
+// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it
+// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels, where four tight cascades come to 1.5
+// and four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
+// or from the frame before (then widen the boxes by what may have moved).
 //
 //   eye depths ── sample_splits ── boxes of samples ── fit_samples ── one matrix a split
 //   (pass 1: SampleDepths)          (pass 2: SampleBounds)
@@ -4440,6 +4867,14 @@ template <class T>
     return std::ldexp(std::ceil(mantissa * T(16)), exponent - 4);
 }
 
+namespace detail {
+
+// Cosines of faces that the light runs along: they are taken to stop nothing.
+template <class T>
+inline constexpr T least_along = T(1e-4);
+
+}  // namespace detail
+
 // Metres along the light, from the world origin, at which the rays between the sides lo and hi (light space) enter the
 // box: nothing of it lies before. Never later than the truth, and earlier by what the box's faces rise across the
 // sides. Above the far side of the box for rays that pass it by.
@@ -4449,8 +4884,7 @@ template <class T>
     T entry = -detail::farthest_metres<T>;
     for (int k = 0; k < 3; ++k) {
         T const along = basis.depth[k];
-        // Faces that the light runs along stop nothing.
-        if (!(std::abs(along) > T(1e-4))) continue;
+        if (!(std::abs(along) > detail::least_along<T>)) continue;
         // On a ray world coordinate k is across + along * depth.
         T const x0 = basis.x[k] * lo.x, x1 = basis.x[k] * hi.x, y0 = basis.y[k] * lo.y, y1 = basis.y[k] * hi.y;
         T const face = along > T(0) ? box.lo[k] : box.hi[k];
@@ -4498,7 +4932,9 @@ template <class T>
 template <class T>
 inline void fit_samples_of(Cascade<T>& cascade, SampleRays<T> const& rays, Aabb<T> const& box, Aabb<T> const& casters,
                            SampleFitOptions<T> const& options) noexcept {
-    Aabb<T> const body{box.lo + rays.eye, box.hi + rays.eye};
+    // Receivers are drawn by another pass than the depths were: their places agree to some ulp of a float.
+    T const slack = T(0x1p-18) * largest_of(box);
+    Aabb<T> const body{box.lo + rays.eye - slack, box.hi + rays.eye + slack};
     if (!(largest_of(body) <= farthest_metres<T>)) {
         cascade.map.faults |= Fault::precision_lost;
         return;
@@ -4566,6 +5002,60 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/stored_depth.hpp ========
+//
+// From what a depth buffer holds to eye depth in metres, for a camera drawn with view_volume.hpp's clip_from_world (or
+// any matrix with the same near, far and convention): one multiplication, addition and division, never the inverse of a
+// view-projection.
+//
+// What it is worth: a float buffer with reversed depth keeps eye depth to an ulp or so at any distance. With depth from
+// 0 to 1 the error grows as depth^2 / z_near: 6 mm at 100 m, 0.6 m at 1000 m for z_near = 0.1 m. The shader's twin is
+// glsl/stored_depth.glsl.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Eye depth = (num_scale * stored + num_offset) / (den_scale * stored + den_offset). The default knows no depth: what
+// it gives lies behind the eye.
+template <class T>
+struct DepthCode {
+    T num_scale = T(0);
+    T num_offset = T(-1);
+    T den_scale = T(0);
+    T den_offset = T(1);
+    T sky = T(1);  // the value that the buffer is cleared to
+};
+
+// "Stored" is in [0, 1] in every convention. A view with faults, and an orthographic one without end, give the default.
+template <class T>
+[[nodiscard]] inline DepthCode<T> depth_code(ViewVolume<T> const& view, ClipSpace clip) noexcept {
+    DepthCode<T> code;
+    code.sky = far_depth<T>(clip);
+    bool const endless = is_positive_infinity(&view.z_far);
+    bool const reversed = clip.depth == DepthOrder::one_to_zero;
+    if (faults_of(view).any()) return code;
+    if (view.kind == ViewKind::perspective) {
+        // Depth from the near end is (far - near) / far * (1 - near / z).
+        T const share = endless ? T(1) : (view.z_far - view.z_near) / view.z_far;
+        T const rest = endless ? T(0) : view.z_near / view.z_far;
+        code = {T(0), view.z_near, reversed ? share : -share, reversed ? rest : T(1), code.sky};
+    } else if (!endless) {
+        T const range = view.z_far - view.z_near;
+        code = {reversed ? -range : range, reversed ? view.z_far : view.z_near, T(0), T(1), code.sky};
+    }
+    return code;
+}
+
+// Metres; for the sky a number beyond every depth. NaN gives NaN, which sample reductions leave out.
+template <class T>
+[[nodiscard]] inline T decoded_depth(DepthCode<T> const& code, T const& stored) noexcept {
+    if (stored == code.sky) return std::numeric_limits<T>::max();
+    return (code.num_scale * stored + code.num_offset) / (code.den_scale * stored + code.den_offset);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/filter.hpp ========
 //
 // Percentage-closer filtering as the receiver shader does it, with depths fetched from wherever they are: a test, an
@@ -4588,13 +5078,18 @@ struct FilterOptions {
     bool tap_plane = true;  // compare each tap with the receiver plane's depth there, not with the point's
 };
 
-// Share of the kernel that texel `tap` (-radius to radius from the one that holds the point) covers along one axis,
-// when the point lies the `fraction` [0, 1) into its texel. The taps of an axis sum to 1.
+// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis,
+// when the point lies the `fraction` [0, 1) into its texel.
+template <class T>
+[[nodiscard]] constexpr T covered_texels(int tap, int radius, T fraction) noexcept {
+    if (radius == 0) return T(1);
+    return tap == -radius ? T(1) - fraction : (tap == radius ? fraction : T(1));
+}
+
+// The same as a share of the kernel: the taps of an axis sum to 1.
 template <class T>
 [[nodiscard]] constexpr T tap_weight(int tap, int radius, T fraction) noexcept {
-    if (radius == 0) return T(1);
-    T const covered = tap == -radius ? T(1) - fraction : (tap == radius ? fraction : T(1));
-    return covered / T(2 * radius);
+    return radius == 0 ? T(1) : covered_texels(tap, radius, fraction) / T(2 * radius);
 }
 
 // A receiver as the map sees it.
@@ -4605,7 +5100,8 @@ struct Receiver {
     DepthSlope<T> slope;  // on its plane
 };
 
-// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light.
+// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1
+// and 0 are exact where all taps agree.
 // `stored_depth(x, y)` is asked for texels of the map only; those outside hold nothing. Depths are compared within
 // [0, 1], as they are stored: a receiver beyond the far end is lit by the cleared map. What is not finite is lit.
 template <class T, class StoredDepth>
@@ -4629,17 +5125,42 @@ template <class T, class StoredDepth>
     };
     int const home_x = static_cast<int>(std::floor(at.x)), home_y = static_cast<int>(std::floor(at.y));
     Vec2<T> const fraction(at.x - T(home_x), at.y - T(home_y));
-    T visibility = T(0);
+    T lit = T(0), dark = T(0);
     for (int j = -radius; j <= radius; ++j) {
         for (int i = -radius; i <= radius; ++i) {
-            T const weight = tap_weight(i, radius, fraction.x) * tap_weight(j, radius, fraction.y);
+            T const weight = covered_texels(i, radius, fraction.x) * covered_texels(j, radius, fraction.y);
             Vec2<T> const to_tap = Vec2<T>(T(i), T(j)) + T(0.5) - fraction;
             T const rise = options.tap_plane ? receiver.slope.x * to_tap.x + receiver.slope.y * to_tap.y : T(0);
-            if (is_lit(home_x + i, home_y + j, receiver.depth + rise)) visibility += weight;
+            (is_lit(home_x + i, home_y + j, receiver.depth + rise) ? lit : dark) += weight;
         }
     }
-    return visibility < T(1) ? visibility : T(1);
+    return dark == T(0) ? T(1) : lit / (lit + dark);
 }
+
+namespace detail {
+
+template <class T>
+struct Seen {
+    Receiver<T> receiver;
+    T w = T(1);           // clip w of the receiver
+    bool in_map = false;  // false: the map cannot answer, the point is lit
+};
+
+template <class T>
+[[nodiscard]] inline Seen<T> seen_by(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, Vec3<T> const& normal,
+                                     MapBias<T> const& bias, bool tap_plane) noexcept {
+    if (!map.visible || map_size < 1 || !all_finite(map.clip_from_world)) return {};
+    Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
+    if (!at.in_front) return {};
+    DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
+    DepthSlope<T> const own = tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
+    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
+    bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
+    T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
+    return {Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, at.w, true};
+}
+
+}  // namespace detail
 
 // What a receiver shader does for one map: project the point and the plane through it, subtract the bias, filter. 1
 // where the map does not hold the point. `normal` is the surface's own, not the interpolated one.
@@ -4647,16 +5168,576 @@ template <class T, class StoredDepth>
 [[nodiscard]] inline T visibility(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, Vec3<T> const& normal,
                                   MapBias<T> const& bias, FilterOptions options,
                                   StoredDepth const& stored_depth) noexcept {
-    if (!map.visible || map_size < 1 || !all_finite(map.clip_from_world)) return T(1);
-    Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
-    if (!at.in_front) return T(1);
-    DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
-    DepthSlope<T> const own = options.tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
-    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
-    bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
-    T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
-    return filtered(Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, map_size, map.clip, options,
-                    stored_depth);
+    detail::Seen<T> const seen = detail::seen_by(map, map_size, point, normal, bias, options.tap_plane);
+    if (!seen.in_map) return T(1);
+    return filtered(seen.receiver, map_size, map.clip, options, stored_depth);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/penumbra.hpp ========
+//
+// How wide the edge of a shadow is under a light that has a size: one formula for suns and lamps, in any map.
+//
+//         light   ====*====   radius r
+//                  \  |  /            gap of an occluder, from the receiver's side:
+//      occluder  ---- o ----            sun   metres between the two, along the light
+//                   \ | /               lamp  (receiver's distance - occluder's) / occluder's
+//      receiver  ----\|/----
+//                     p               penumbra, metres across the light:  2 r gap
+//
+// r is a sun's tangent of its angular radius and a lamp's radius in metres. With the light l of light.hpp, the cone
+// from a point p to the rim of the light is, in homogeneous coordinates,
+//
+//   p + gap (r u - l)      u: unit, across the light
+//
+// for both kinds, and the law of shadow maps (M l = (0, 0, k, 0)) turns it into M p + gap (r M u - (0, 0, k, 0)): an
+// occluder's gap is linear in its stored depth, without any linearisation, and a kernel in metres is two vectors a map.
+// So penumbrae are the same metres in every cascade, warp and convention, and do not jump between them.
+//
+// A lamp is a disk at a right angle to the spot's axis. Maps drawn with depth clamp (pancaking) do not know how far
+// away the casters before their near end are: give those maps a near end that holds the casters.
+//
+// Source: the similar triangles of Fernando, Percentage-Closer Soft Shadows, SIGGRAPH 2005 Sketches. Departure: those
+// need linear depth and hold for one kind of map each.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Angular radius of the real sun: 16 minutes of arc.
+template <class T>
+inline constexpr T sun_angular_radius_radians = T(0.00465);
+
+// Gaps are kept at or below this.
+template <class T>
+inline constexpr T widest_gap = T(1e6);
+
+// The radius of a sun, for what follows: the tangent of its angular radius, which is clamped to [0, 1.5] radians.
+template <class T>
+[[nodiscard]] inline T sun_radius(T angular_radius_radians) noexcept {
+    if (!all_finite(&angular_radius_radians, 1) || !(angular_radius_radians > T(0))) return T(0);
+    return std::tan(angular_radius_radians < T(1.5) ? angular_radius_radians : T(1.5));
+}
+
+// Metres across the light over which its shadow fades: from no light to all of it.
+template <class T>
+[[nodiscard]] constexpr T penumbra_metres(T light_radius, T gap) noexcept {
+    return T(2) * light_radius * gap;
+}
+
+// The gap of an occluder so many metres from the point on its way to the light. A lamp's occluders lie between it and
+// the point: gaps end at widest_gap there.
+template <class T>
+[[nodiscard]] inline T gap_of_metres(Light<T> const& light, Vec3<T> const& point, T metres) noexcept {
+    if (!all_finite(&metres, 1) || !(metres > T(0)) || !all_finite(point) || unusable(light)) return T(0);
+    if (light.kind == LightKind::directional) return metres < widest_gap<T> ? metres : widest_gap<T>;
+    T const distance = safe_normalize(point - light.position).length;
+    return metres < distance ? bounded_quotient(metres, distance - metres, widest_gap<T>) : widest_gap<T>;
+}
+
+// And back: the metres of a gap.
+template <class T>
+[[nodiscard]] inline T metres_of_gap(Light<T> const& light, Vec3<T> const& point, T gap) noexcept {
+    if (!all_finite(&gap, 1) || !(gap > T(0)) || !all_finite(point) || unusable(light)) return T(0);
+    T const kept = gap < widest_gap<T> ? gap : widest_gap<T>;
+    if (light.kind == LightKind::directional) return kept;
+    T const metres = safe_normalize(point - light.position).length * (kept / (T(1) + kept));
+    return all_finite(&metres, 1) ? metres : T(0);
+}
+
+// What a shader needs of one map. Places in it are (u w, v w, depth w, w) with depth growing away from the light, in
+// any convention: a map whose depth is reversed is read as 1 - depth.
+template <class T>
+struct MapPenumbra {
+    Vec4<T> rim_x{T(0)};            // what a place gains per unit of gap from the cone's axis to its rim
+    Vec4<T> rim_y{T(0)};            // and at a right angle to it
+    T depth_of_gap = T(1);          // k: depth w lost per unit of gap along the axis, > 0
+    T largest_gap = widest_gap<T>;  // what is farther counts as this far: lower it where heights are known
+};
+
+// The matrix whose places a MapPenumbra speaks of.
+template <class T>
+[[nodiscard]] inline Mat4<T> place_from_world(ShadowMap<T> const& map) noexcept {
+    Mat4<T> matrix = texture_from_world(map);
+    if (map.clip.depth != DepthOrder::one_to_zero) return matrix;
+    for (int column = 0; column < 4; ++column) matrix[column].z = matrix[column].w - matrix[column].z;
+    return matrix;
+}
+
+// Linear in the light's radius. Where that is negative or not finite, or light or map cannot be used, it is 0: shadows
+// are hard.
+template <class T>
+[[nodiscard]] inline MapPenumbra<T> penumbra_for(ShadowMap<T> const& map, Light<T> const& light,
+                                                 T light_radius) noexcept {
+    MapPenumbra<T> penumbra;
+    T const gain = depth_gain(map, light);
+    Tangents<T> const disk = tangents(light.direction);
+    if (!(gain > T(0)) || !disk.ok || !all_finite(&light_radius, 1)) return penumbra;
+    penumbra.depth_of_gap = gain;
+    Mat4<T> const place = place_from_world(map);
+    T const radius = light_radius > T(0) ? light_radius : T(0);
+    Vec4<T> const rim_x = place * Vec4<T>(disk.s * radius, T(0)), rim_y = place * Vec4<T>(disk.t * radius, T(0));
+    if (!all_finite(rim_x) || !all_finite(rim_y)) return penumbra;
+    penumbra.rim_x = rim_x;
+    penumbra.rim_y = rim_y;
+    return penumbra;
+}
+
+// Where the plane across the light through the receiver is met by the light ray that passes the cone from `receiver` to
+// the light at `gap`, toward `u` in the unit disk. Exact in any map; what stands there at that gap lies gap *
+// depth_of_gap nearer.
+template <class T>
+[[nodiscard]] inline Vec4<T> across(MapPenumbra<T> const& penumbra, Vec4<T> const& receiver, Vec2<T> const& u,
+                                    T gap) noexcept {
+    return receiver + (penumbra.rim_x * u.x + penumbra.rim_y * u.y) * gap;
+}
+
+// The gap of what is stored at a place; negative for what lies behind the receiver's plane across the light.
+template <class T>
+[[nodiscard]] inline T gap_at(MapPenumbra<T> const& penumbra, Vec4<T> const& place, T depth) noexcept {
+    return (place.z - depth * place.w) / penumbra.depth_of_gap;
+}
+
+// Half the width and height, in texels, of the box around the kernel of a gap, to first order in gap. For choosing a
+// filter, or the margin of a map; taps themselves come from across().
+template <class T>
+[[nodiscard]] inline Vec2<T> kernel_texels(MapPenumbra<T> const& penumbra, Vec4<T> const& receiver, int map_size,
+                                           T gap) noexcept {
+    if (!all_finite(receiver) || !(receiver.w > T(0)) || !all_finite(&gap, 1) || map_size < 1) return Vec2<T>(T(0));
+    T const scale = gap * T(map_size) / receiver.w;
+    Vec2<T> const at = Vec2<T>(receiver) / receiver.w;
+    Vec2<T> const x = Vec2<T>(penumbra.rim_x) - at * penumbra.rim_x.w;
+    Vec2<T> const y = Vec2<T>(penumbra.rim_y) - at * penumbra.rim_y.w;
+    Vec2<T> const half_axes(safe_normalize(Vec3<T>(x.x, y.x, T(0))).length,
+                            safe_normalize(Vec3<T>(x.y, y.y, T(0))).length);
+    Vec2<T> const texels = half_axes * scale;
+    return all_finite(texels) ? texels : Vec2<T>(T(0));
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/pcss.hpp ========
+//
+// Percentage-closer soft shadows: edges that are sharp where the occluder touches and wide where it is far, from one
+// ordinary map. Look for occluders, take their mean gap, filter as wide as the penumbra of that gap.
+//
+// Use it for one light close to the eye, where the softness of a shadow tells how far its caster is; where it does not,
+// filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high one overlap, the
+// edge is of a width in between.
+//
+// Source: Fernando, SIGGRAPH 2005 Sketches; the disk of taps is Vogel's, Mathematical Biosciences 44, 1979.
+// Departures: gaps instead of linear depths (penumbra.hpp). The search counts an occluder only from inside the cone
+// that the light subtends at its gap, for from elsewhere it takes no light away: the answer does not depend on how far
+// the map's near end is. Taps of the search crowd toward the middle, so that every height of occluder has its share.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int largest_tap_count = 256;
+
+template <class T>
+struct PcssOptions {
+    int search_taps = 32;      // texels read to find occluders, 1 to largest_tap_count
+    int filter_taps = 32;      // places compared, four texels each, 1 to largest_tap_count
+    Vec2<T> turn{T(1), T(0)};  // cosine and sine: turns the taps, one angle a pixel trades bands for noise
+};
+
+template <class T>
+struct SoftShadow {
+    T visibility = T(1);   // share of the light that is seen, [0, 1]
+    T gap = T(0);          // mean of the occluders found; 0 without any
+    bool blocked = false;  // some were found
+};
+
+// Directions at the golden angle to each other. A rotation by a constant, so that no two compilers' sines differ.
+template <class T>
+[[nodiscard]] constexpr Vec2<T> next_direction(Vec2<T> const& direction) noexcept {
+    T const cosine = T(-0.737368878078319693498L), sine = T(0.675490294261523644571L);
+    return Vec2<T>(direction.x * cosine - direction.y * sine, direction.x * sine + direction.y * cosine);
+}
+
+namespace detail {
+
+// The map as the taps see it: depth grows away from the light, outside nothing is held.
+template <class T, class StoredDepth>
+struct TapMap {
+    StoredDepth const& stored_depth;
+    int size;
+    bool reversed_depth;
+
+    [[nodiscard]] bool holds(int x, int y) const noexcept { return x >= 0 && y >= 0 && x < size && y < size; }
+    [[nodiscard]] T depth(int x, int y) const noexcept {
+        T const stored = T(stored_depth(x, y));
+        return reversed_depth ? T(1) - stored : stored;
+    }
+};
+
+// A receiver and the plane through it, depth growing away from the light.
+template <class T>
+struct TapPlane {
+    Vec2<T> texel;
+    T depth;
+    DepthSlope<T> slope;
+
+    // The plane's depth at the centre of a texel, as a map would store it.
+    [[nodiscard]] T at(int x, int y) const noexcept {
+        T const rise = slope.x * (T(x) + T(0.5) - texel.x) + slope.y * (T(y) + T(0.5) - texel.y);
+        T const there = depth + rise;
+        return there > T(0) ? (there < T(1) ? there : T(1)) : T(0);
+    }
+};
+
+// Texels of a place, at most one outside of the map; false where it is farther away or nowhere.
+template <class T>
+[[nodiscard]] inline bool texel_of(Vec4<T> const& place, int map_size, Vec2<T>& texel) noexcept {
+    if (!(place.w > T(0))) return false;
+    T const size = T(map_size);
+    texel = Vec2<T>(place) * size / place.w;
+    return texel.x >= T(-1) && texel.y >= T(-1) && texel.x <= size + T(1) && texel.y <= size + T(1);
+}
+
+// The four texels around a place, and the mean of what they say by the distance to it: exactly 0 and 1 where they
+// agree.
+template <class T>
+struct Around {
+    int x, y;  // of the lower left one
+    Vec2<T> share;
+
+    explicit Around(Vec2<T> const& texel) noexcept {
+        Vec2<T> const corner(std::floor(texel.x - T(0.5)), std::floor(texel.y - T(0.5)));
+        x = static_cast<int>(corner.x);
+        y = static_cast<int>(corner.y);
+        share = texel - T(0.5) - corner;
+    }
+    template <class Value>
+    [[nodiscard]] T mean(Value const& at) const noexcept {
+        T const lower = at(x, y) * (T(1) - share.x) + at(x + 1, y) * share.x;
+        T const upper = at(x, y + 1) * (T(1) - share.x) + at(x + 1, y + 1) * share.x;
+        return lower * (T(1) - share.y) + upper * share.y;
+    }
+};
+
+// Mean gap of the occluders that stand in the cone. Its tip is as wide as a texel: the first tap weighs the four around
+// the point, so that the edge of a shadow in contact fades on both sides.
+template <class T, class StoredDepth>
+[[nodiscard]] inline SoftShadow<T> search(TapMap<T, StoredDepth> const& map, TapPlane<T> const& plane,
+                                          Vec4<T> const& receiver, MapPenumbra<T> const& penumbra, int taps,
+                                          Vec2<T> direction) noexcept {
+    // The map holds nothing nearer to the light than depth 0.
+    T const nothing_beyond = gap_at(penumbra, receiver, T(0));
+    T const allowed = penumbra.largest_gap < widest_gap<T> ? penumbra.largest_gap : widest_gap<T>;
+    T const widest = nothing_beyond < allowed ? nothing_beyond : allowed;
+    if (!(widest > T(0))) return {};
+    // 0 where there is no occluder in the cone.
+    auto const gap_in_cone = [&](int x, int y, Vec4<T> const& place, T least_gap) {
+        if (!map.holds(x, y)) return T(0);
+        T const depth = map.depth(x, y), gap = gap_at(penumbra, place, depth);
+        if (!(depth < plane.at(x, y)) || !(gap >= least_gap)) return T(0);
+        return gap < widest ? gap : widest;
+    };
+    T sum = T(0), found = T(0);
+    Vec2<T> texel;
+    if (texel_of(receiver, map.size, texel)) {
+        Around<T> const four(texel);
+        sum = four.mean([&](int x, int y) { return gap_in_cone(x, y, receiver, T(0)); });
+        found = four.mean([&](int x, int y) { return gap_in_cone(x, y, receiver, T(0)) > T(0) ? T(1) : T(0); });
+    }
+    for (int i = 1; i < taps; ++i) {
+        direction = next_direction(direction);
+        T const share = (T(i) + T(0.5)) / T(taps), reach = share * share;
+        Vec4<T> const place = across(penumbra, receiver, direction * reach, widest);
+        if (!texel_of(place, map.size, texel)) continue;
+        int const x = static_cast<int>(std::floor(texel.x)), y = static_cast<int>(std::floor(texel.y));
+        T const gap = gap_in_cone(x, y, place, reach * widest);
+        if (!(gap > T(0))) continue;
+        sum += gap;
+        found += T(1);
+    }
+    if (!(found > T(0))) return {};
+    T const mean = sum / found;
+    return {T(0), mean < widest ? mean : widest, true};
+}
+
+// Share of the four texels around a place that are lit, by their distance to it.
+template <class T, class StoredDepth>
+[[nodiscard]] inline T lit_around(TapMap<T, StoredDepth> const& map, TapPlane<T> const& plane,
+                                  Vec2<T> const& texel) noexcept {
+    return Around<T>(texel).mean(
+        [&](int x, int y) { return !map.holds(x, y) || !(plane.at(x, y) > map.depth(x, y)) ? T(1) : T(0); });
+}
+
+[[nodiscard]] constexpr int tap_count(int asked) noexcept {
+    return asked < 1 ? 1 : (asked > largest_tap_count ? largest_tap_count : asked);
+}
+
+template <class T>
+[[nodiscard]] inline bool is_finite(MapPenumbra<T> const& penumbra) noexcept {
+    return all_finite(penumbra.rim_x) && all_finite(penumbra.rim_y) && all_finite(&penumbra.depth_of_gap, 1) &&
+           all_finite(&penumbra.largest_gap, 1);
+}
+
+}  // namespace detail
+
+// Share of light that reaches a receiver whose clip w is `w`, in [0, 1]. Without an occluder in the cone exactly 1; the
+// taps follow the receiver's plane, so that no plane shadows itself however wide the kernel. `stored_depth(x, y)` is
+// asked for texels of the map only. What is not finite is lit.
+template <class T, class StoredDepth>
+[[nodiscard]] inline SoftShadow<T> soft_filtered(Receiver<T> const& receiver, T w, MapPenumbra<T> const& penumbra,
+                                                 int map_size, ClipSpace clip, PcssOptions<T> const& options,
+                                                 StoredDepth const& stored_depth) noexcept {
+    if (map_size < 1 || map_size > largest_map_size || !all_finite(&w, 1) || !(w > T(0))) return {};
+    if (!all_finite(receiver.texel) || !all_finite(&receiver.depth, 1) || !all_finite(&receiver.slope.x, 1) ||
+        !all_finite(&receiver.slope.y, 1) || !detail::is_finite(penumbra) || !(penumbra.depth_of_gap > T(0)))
+        return {};
+    bool const reversed_depth = clip.depth == DepthOrder::one_to_zero;
+    detail::TapMap<T, StoredDepth> const map{stored_depth, map_size, reversed_depth};
+    detail::TapPlane<T> plane{receiver.texel, receiver.depth, receiver.slope};
+    if (reversed_depth) {
+        plane.depth = T(1) - receiver.depth;
+        plane.slope = {-receiver.slope.x, -receiver.slope.y};
+    }
+    Vec2<T> turn = options.turn;
+    if (!all_finite(turn) || !(std::abs(glm::dot(turn, turn) - T(1)) <= T(1e-3))) turn = Vec2<T>(T(1), T(0));
+    Vec4<T> const place = Vec4<T>(receiver.texel / T(map_size), plane.depth, T(1)) * w;
+    SoftShadow<T> shadow = detail::search(map, plane, place, penumbra, detail::tap_count(options.search_taps), turn);
+    if (!shadow.blocked) return {};
+    int const taps = detail::tap_count(options.filter_taps);
+    T lit = T(0);
+    Vec2<T> direction = turn;
+    for (int i = 0; i < taps; ++i, direction = next_direction(direction)) {
+        Vec2<T> const u = direction * std::sqrt((T(i) + T(0.5)) / T(taps));
+        Vec2<T> texel;
+        bool const in_map = detail::texel_of(across(penumbra, place, u, shadow.gap), map_size, texel);
+        lit += in_map ? detail::lit_around(map, plane, texel) : T(1);
+    }
+    T const visibility = lit / T(taps);
+    shadow.visibility = visibility < T(1) ? visibility : T(1);
+    return shadow;
+}
+
+// What a receiver shader does for one map: project the point and the plane through it, subtract the bias, search,
+// filter. Lit where the map does not hold the point. `normal` is the surface's own, not the interpolated one.
+template <class T, class StoredDepth>
+[[nodiscard]] inline SoftShadow<T> soft_visibility(ShadowMap<T> const& map, int map_size, Vec3<T> const& point,
+                                                   Vec3<T> const& normal, MapBias<T> const& bias,
+                                                   MapPenumbra<T> const& penumbra, PcssOptions<T> const& options,
+                                                   StoredDepth const& stored_depth) noexcept {
+    detail::Seen<T> const seen = detail::seen_by(map, map_size, point, normal, bias, true);
+    if (!seen.in_map) return {};
+    return soft_filtered(seen.receiver, seen.w, penumbra, map_size, map.clip, options, stored_depth);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/hfts.hpp ========
+//
+// Hybrid frustum-traced shadows: exact where the occluder touches, soft where it is far. An exact test (a ray or an
+// irregular z-buffer) leaves no gap at contacts and has no texels, but knows nothing of the light's size; PCSS knows
+// that, and fails at contacts. The occluder's gap says whom to believe.
+//
+// Use it for the few metres around the eye. Far away, where a texel of the map is a pixel, PCSS alone is as good.
+//
+// Source: Story and Wyman, SIGGRAPH 2016 Talks. Departure: gaps (penumbra.hpp), so the same number serves every cascade
+// and every light; and where the exact test found nothing, the soft one's own occluders decide: else the outer half of
+// each penumbra would be cut off.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// What an exact test says of one receiver.
+template <class T>
+struct ExactShadow {
+    T visibility = T(1);  // share of its samples that are lit, [0, 1]
+    T gap = T(0);         // of the occluder nearest to the receiver, >= 0
+};
+
+// Share of the soft answer: 0 in contact, growing in proportion to the gap, 1 from `soft_gap` on. A soft_gap of 0 or
+// less: all soft.
+template <class T>
+[[nodiscard]] inline T softness(T gap, T soft_gap) noexcept {
+    if (!all_finite(&gap, 1) || !all_finite(&soft_gap, 1)) return T(0);
+    if (!(gap < soft_gap)) return T(1);
+    return gap > T(0) ? gap / soft_gap : T(0);
+}
+
+// Between the two answers, the exact one in contact; 1 where neither found an occluder. What is not finite gives the
+// exact answer, or light where that is not finite either.
+template <class T>
+[[nodiscard]] inline T hybrid_visibility(ExactShadow<T> const& exact, SoftShadow<T> const& soft, T soft_gap) noexcept {
+    if (!all_finite(&exact.visibility, 1)) return T(1);
+    T const hard = exact.visibility > T(0) ? (exact.visibility < T(1) ? exact.visibility : T(1)) : T(0);
+    if (!all_finite(&soft.visibility, 1) || !all_finite(&soft.gap, 1) || !all_finite(&exact.gap, 1)) return hard;
+    bool const traced = hard < T(1);
+    if (!traced && !soft.blocked) return T(1);
+    T gap = traced ? exact.gap : soft.gap;
+    if (traced && soft.blocked && soft.gap < gap) gap = soft.gap;
+    T const mixed_in = soft.visibility > T(0) ? (soft.visibility < T(1) ? soft.visibility : T(1)) : T(0);
+    T const share = softness(gap, soft_gap);
+    return hard * (T(1) - share) + mixed_in * share;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/moments.hpp ========
+//
+// What filterable shadow maps share: texels hold moments of depth, which may be averaged by anything (a blur, mipmaps,
+// the sampler), because the moments of a mixture are the mean of the moments. What comes out is a bound on the share of
+// the kernel that is lit, from a handful of numbers however wide the kernel is: vsm.hpp two or four, msm.hpp four.
+//
+// Use them for wide soft edges that a blur once a frame pays for. Not where a lit strip between two occluders must stay
+// dark: each bound is in favour of light, and lets some through where depths overlap. filter.hpp never does.
+//
+// Depths are in [0, 1] and grow away from the light: 1 - depth of a map whose depth is reversed.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Mean of the moments over the box of filter.hpp, 2 * radius texels wide around the point (radius 0: the texel that
+// holds it). `outside` is what texels outside the map count as: the moments of depth 1. `stored_moments(x, y)` is asked
+// for texels of the map only.
+template <class T, class Moments, class StoredMoments>
+[[nodiscard]] inline Moments mean_moments(Vec2<T> const& texel, int map_size, int radius, Moments const& outside,
+                                          StoredMoments const& stored_moments) noexcept {
+    int const kept = radius < 0 ? 0 : (radius > largest_filter_radius ? largest_filter_radius : radius);
+    T const reach = T(kept + 1), size = T(map_size);
+    if (map_size < 1 || map_size > largest_map_size || !all_finite(texel)) return outside;
+    if (!(texel.x >= -reach && texel.y >= -reach && texel.x <= size + reach && texel.y <= size + reach)) return outside;
+    int const home_x = static_cast<int>(std::floor(texel.x)), home_y = static_cast<int>(std::floor(texel.y));
+    Vec2<T> const fraction(texel.x - T(home_x), texel.y - T(home_y));
+    Moments mean(T(0));
+    for (int j = -kept; j <= kept; ++j) {
+        for (int i = -kept; i <= kept; ++i) {
+            int const x = home_x + i, y = home_y + j;
+            bool const inside = x >= 0 && y >= 0 && x < map_size && y < map_size;
+            T const weight = tap_weight(i, kept, fraction.x) * tap_weight(j, kept, fraction.y);
+            mean += (inside ? stored_moments(x, y) : outside) * weight;
+        }
+    }
+    return mean;
+}
+
+// Takes the faint light out of overlapping shadows: shares below `amount` [0, 1) become 0, the rest is stretched. What
+// it returns is no bound any more; all penumbrae grow narrower.
+template <class T>
+[[nodiscard]] inline T less_bleeding(T visibility, T amount) noexcept {
+    if (!all_finite(&visibility, 1) || !all_finite(&amount, 1)) return T(1);
+    T const cut = amount > T(0) ? (amount < T(0.99) ? amount : T(0.99)) : T(0);
+    T const share = (visibility - cut) / (T(1) - cut);
+    return share < T(1) ? (share > T(0) ? share : T(0)) : T(1);
+}
+
+namespace detail {
+
+template <class T>
+[[nodiscard]] constexpr T unit_depth(T depth) noexcept {
+    return depth > T(0) ? (depth < T(1) ? depth : T(1)) : T(0);
+}
+
+// Within [0, 1]; light for what is not a number.
+template <class T>
+[[nodiscard]] constexpr T share_or_light(T share) noexcept {
+    return share < T(1) ? (share > T(0) ? share : T(0)) : T(1);
+}
+
+}  // namespace detail
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/msm.hpp ========
+//
+// Moment shadow maps: the sharpest bound on the lit share of a kernel that four moments of depth allow. Exact where the
+// kernel holds two depths (an edge over a floor), where VSM still lets light through.
+//
+// Of all distributions with the given moments the one that darkens the receiver least has an atom at the receiver's
+// depth and two more: the roots of a quadratic whose coefficients solve a 3x3 Hankel system. What lies before the
+// receiver in it is occluded. Moments are of z = 2 depth - 1.
+//
+// Source: Peters and Klein, Moment Shadow Mapping, I3D 2015 (the Hamburger problem); packing and bias as in Peters
+// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being
+// infinite, so there is no receiver for which it divides by zero.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Share of a fixed distribution (masses 3/16, 5/8, 3/16 at z = -1, 0, 1) that is mixed into the moments, so that what
+// rounding made of them is still that of a distribution. It costs as much of the bound: light is at most 1 - bias.
+template <class T>
+inline constexpr T msm_bias_float = T(3e-6);  // moments kept and blurred in float
+template <class T>
+inline constexpr T msm_bias_16_bits = T(6e-5);  // packed into four times 16 bits
+
+// z, z^2, z^3, z^4.
+template <class T>
+[[nodiscard]] inline Vec4<T> msm_moments(T depth) noexcept {
+    T const z = all_finite(&depth, 1) ? T(2) * detail::unit_depth(depth) - T(1) : T(1);
+    T const square = z * z;
+    return Vec4<T>(z, square, square * z, square * square);
+}
+
+// Four numbers in [0, 1] to be stored with 16 bits each and filtered as they are: odd and even moments turned so that
+// each fills its range, which makes the volume of possible moments, and the room for rounding, as large as it can be.
+template <class T>
+[[nodiscard]] inline Vec4<T> msm_packed(Vec4<T> const& moments) noexcept {
+    constexpr T root3 = T(1.73205080756887729352744634150587237L);
+    return Vec4<T>(T(1.5) * moments.x - T(2) * moments.z + T(0.5), T(4) * (moments.y - moments.w),
+                   root3 * (moments.x / T(2) - moments.z * (T(2) / T(9))) + T(0.5), (moments.y + moments.w) / T(2));
+}
+
+template <class T>
+[[nodiscard]] inline Vec4<T> msm_unpacked(Vec4<T> const& stored) noexcept {
+    constexpr T root3 = T(1.73205080756887729352744634150587237L);
+    T const first = stored.x - T(0.5), second = root3 * (stored.z - T(0.5));
+    return Vec4<T>(second - first / T(3), stored.w + stored.y / T(8), T(0.75) * (second - first),
+                   stored.w - stored.y / T(8));
+}
+
+namespace detail {
+
+// Coefficients c of 1, z, z^2 with Hankel(b) c = (1, x, x^2), through L D L^T.
+template <class T>
+[[nodiscard]] inline Vec3<T> solve_hankel(Vec4<T> const& b, T x) noexcept {
+    T const variance = b.y - b.x * b.x, skew = b.z - b.x * b.y;
+    T const spread = (b.w - b.y * b.y) * variance - skew * skew;  // det: D3 * D2
+    T const c1 = x - b.x, c2 = x * x - b.y - skew / variance * c1;
+    T const z = c2 * variance / spread;
+    T const y = (c1 - skew * z) / variance;
+    return Vec3<T>(T(1) - b.x * y - b.y * z, y, z);
+}
+
+// The mass before x in the distribution with these moments, an atom at x and atoms at low <= high.
+template <class T>
+[[nodiscard]] inline T mass_before(Vec4<T> const& b, T x, T low, T high) noexcept {
+    if (!(x > low)) return T(0);
+    if (!(x > high)) return (x * high - b.x * (x + high) + b.y) / ((high - low) * (x - low));
+    return T(1) - (low * high - b.x * (low + high) + b.y) / ((x - low) * (x - high));
+}
+
+}  // namespace detail
+
+// Never less than (1 - bias) times the share of the kernel at or beyond `depth`, up to the rounding that the bias
+// covers; never growing with depth; within `bias` and rounding exact where the kernel holds one or two depths away from
+// the receiver's. `bias` is clamped to what keeps the system regular.
+template <class T>
+[[nodiscard]] inline T msm_visibility(Vec4<T> const& moments, T depth, T bias) noexcept {
+    if (!all_finite(moments) || !all_finite(&depth, 1)) return T(1);
+    T const least = T(16) * std::numeric_limits<T>::epsilon();
+    T const share = all_finite(&bias, 1) && bias > least ? (bias < T(0.1) ? bias : T(0.1)) : least;
+    Vec4<T> const b = moments * (T(1) - share) + Vec4<T>(T(0), T(0.375), T(0), T(0.375)) * share;
+    T const x = T(2) * detail::unit_depth(depth) - T(1);
+    Vec3<T> const c = detail::solve_hankel(b, x);
+    // Roots by the formula in which nothing cancels.
+    T const discriminant = c.y * c.y - T(4) * c.z * c.x;
+    T const root = std::sqrt(discriminant > T(0) ? discriminant : T(0));
+    T const sum = (c.y < T(0) ? root - c.y : -root - c.y) / T(2);
+    T const farthest = T(1e4);
+    T const one = bounded_quotient(sum, c.z, farthest), other = bounded_quotient(c.x, sum, farthest);
+    T const occluded = detail::mass_before(b, x, one < other ? one : other, one < other ? other : one);
+    return detail::share_or_light(T(1) - occluded);
 }
 
 }  // namespace v0
@@ -4735,6 +5816,2193 @@ template <class T>
 [[nodiscard]] inline Vec3<T> shade(Vec3<T> const& ambient, Vec3<T> const& diffuse, Vec3<T> const& specular,
                                    T visibility, Vec3<T> const& albedo) noexcept {
     return (ambient + (diffuse + specular) * visibility) * albedo;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/vsm.hpp ========
+//
+// Variance shadow maps, plain and exponential: the share of a kernel that is lit is at most
+//
+//   variance / (variance + (depth - mean)^2)        beyond the mean depth, 1 before it (Cantelli)
+//
+// whatever the kernel holds. VSM takes two moments of depth; EVSM the same of two growing functions of depth, exp(c z)
+// and -exp(-c z), z = 2 depth - 1: order stays, so both bounds hold, and the smaller is far smaller where depths
+// overlap. The exponent c is bounded by what squares fit into the format: see largest_exponent_*.
+//
+// Use EVSM where 128 bits a texel are paid for, VSM with less_bleeding where 64 are; msm.hpp needs 64 and no exponent.
+//
+// Source: Donnelly and Lauritzen, I3D 2006; Lauritzen and McCool, Graphics Interface 2008. Departure: the least
+// variance is given as a deviation of depth, and is carried through the warp by its slope.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// exp(2 c) must fit: into 3.4e38 with room for what a bound computes of it, and into 65504.
+inline constexpr float largest_exponent_float = 42.0f;
+inline constexpr float largest_exponent_half = 5.54f;
+
+template <class T>
+[[nodiscard]] inline Vec2<T> vsm_moments(T depth) noexcept {
+    if (!all_finite(&depth, 1)) return Vec2<T>(T(1));
+    T const kept = detail::unit_depth(depth);
+    return Vec2<T>(kept, kept * kept);
+}
+
+namespace detail {
+
+// Cantelli's bound; `least_deviation` >= 0, of the same quantity.
+template <class T>
+[[nodiscard]] inline T most_light(T mean, T mean_square, T value, T least_deviation) noexcept {
+    if (!(value > mean)) return T(1);
+    T const measured = mean_square - mean * mean, least = least_deviation * least_deviation;
+    T const variance = measured > least ? measured : least;
+    T const distance = value - mean, sum = variance + distance * distance;
+    return sum > T(0) ? share_or_light(variance / sum) : T(1);
+}
+
+// Beyond a hundredth of the map's depth nothing would be dark, and the squares of EVSM would overflow.
+template <class T>
+[[nodiscard]] inline T kept_deviation(T const& deviation) noexcept {
+    if (!all_finite(&deviation, 1) || !(deviation > T(0))) return T(0);
+    return deviation < T(0.01) ? deviation : T(0.01);
+}
+
+template <class T>
+[[nodiscard]] inline T kept_exponent(T const& exponent) noexcept {
+    if (!all_finite(&exponent, 1) || !(exponent > T(0))) return T(0);
+    return exponent < T(largest_exponent_float) ? exponent : T(largest_exponent_float);
+}
+
+}  // namespace detail
+
+// Never less than the share of the kernel at or beyond `depth`, and never growing with it; exact where the kernel holds
+// one depth. `least_deviation` [0, 0.01] is a spread of depth that every kernel is taken to have at least: it hides the
+// rounding of the moments, about 3e-4 for float and 4e-3 for 16 bits.
+template <class T>
+[[nodiscard]] inline T vsm_visibility(Vec2<T> const& moments, T depth, T least_deviation) noexcept {
+    if (!all_finite(moments) || !all_finite(&depth, 1)) return T(1);
+    return detail::most_light(moments.x, moments.y, detail::unit_depth(depth), detail::kept_deviation(least_deviation));
+}
+
+// Exponents of the growing and of the falling warp, each clamped to [0, largest_exponent_float]. The falling one needs
+// less: it answers for receivers before the occluders behind them.
+template <class T>
+struct EvsmExponents {
+    T growing = T(40);
+    T falling = T(5);
+};
+
+// exp(c z) and -exp(-c z), both growing with depth.
+template <class T>
+[[nodiscard]] inline Vec2<T> evsm_warp(T depth, EvsmExponents<T> const& exponents) noexcept {
+    T const z = all_finite(&depth, 1) ? T(2) * detail::unit_depth(depth) - T(1) : T(1);
+    return Vec2<T>(std::exp(detail::kept_exponent(exponents.growing) * z),
+                   -std::exp(-detail::kept_exponent(exponents.falling) * z));
+}
+
+// Of the growing warp and of its square, of the falling one and of its square. Finite in float.
+template <class T>
+[[nodiscard]] inline Vec4<T> evsm_moments(T depth, EvsmExponents<T> const& exponents) noexcept {
+    Vec2<T> const warp = evsm_warp(depth, exponents);
+    return Vec4<T>(warp.x, warp.x * warp.x, warp.y, warp.y * warp.y);
+}
+
+// As vsm_visibility, and never more than either warp alone allows; `warp` is that of the receiver's depth.
+template <class T>
+[[nodiscard]] inline T evsm_bound(Vec4<T> const& moments, Vec2<T> const& warp, EvsmExponents<T> const& exponents,
+                                  T least_deviation) noexcept {
+    if (!all_finite(moments) || !all_finite(warp)) return T(1);
+    T const deviation = T(2) * detail::kept_deviation(least_deviation);
+    T const growing =
+        detail::most_light(moments.x, moments.y, warp.x, deviation * detail::kept_exponent(exponents.growing) * warp.x);
+    T const falling = detail::most_light(moments.z, moments.w, warp.y,
+                                         -deviation * detail::kept_exponent(exponents.falling) * warp.y);
+    return growing < falling ? growing : falling;
+}
+
+template <class T>
+[[nodiscard]] inline T evsm_visibility(Vec4<T> const& moments, T depth, EvsmExponents<T> const& exponents,
+                                       T least_deviation) noexcept {
+    if (!all_finite(&depth, 1)) return T(1);
+    return evsm_bound(moments, evsm_warp(depth, exponents), exponents, least_deviation);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/gpu.hpp ========
+//
+// What shaders read, as it lies in memory: the structs of glsl/layout.glsl, member by member, and the functions that
+// fill them. The layout is the same in std140 and std430, and every offset is asserted here.
+//
+// In the engine:
+//
+//   GpuCascades const shadows = gpu_cascades(fit_cascades(view, light, casters, receivers, options), light, options);
+//   // Upload it as a uniform block; draw the casters into layer i by shadows.at[i].map.clip_from_world.
+//
+// In its shader (glslangValidator and shaderc want #extension GL_GOOGLE_include_directive; else paste the files):
+//
+//   #include "shadowmath/glsl/layout.glsl"
+//   #include "shadowmath/glsl/cascades.glsl"
+//   layout(std140, binding = 0) uniform Shadows { sm_Cascades shadows; };
+//   layout(binding = 1) uniform sampler2DArray depths;
+//
+//   sm_LookUp look_up = sm_by_depth(shadows.ranges, shadows.count, eye_depth);
+//   float lit = sm_cascaded_visibility(depths, look_up, shadows.at[max(look_up.first, 0)],
+//                                      shadows.at[max(look_up.second, 0)], shadows.map_size, point, plane_normal,
+//                                      shadows.filter_radius, shadows.tap_plane != 0);
+//
+// A map of any other technique (a warp, a view-dependent map, a spot's) is gpu_map's, and sm_visibility reads it.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// sm_ShadowMap
+struct GpuShadowMap {
+    Mat4<float> clip_from_world = nowhere<float>();
+    float w_min = 0.0f;
+    std::int32_t depth_order = 0;  // DepthOrder
+    std::int32_t flip_v = 0;       // 1: texture v counts against NDC y
+    std::int32_t visible = 0;
+};
+static_assert(offsetof(GpuShadowMap, clip_from_world) == 0);
+static_assert(offsetof(GpuShadowMap, w_min) == 64);
+static_assert(offsetof(GpuShadowMap, depth_order) == 68);
+static_assert(offsetof(GpuShadowMap, flip_v) == 72);
+static_assert(offsetof(GpuShadowMap, visible) == 76);
+static_assert(sizeof(GpuShadowMap) == 80);
+
+// sm_MapBias
+using GpuMapBias = MapBias<float>;
+static_assert(offsetof(GpuMapBias, constant) == 0);
+static_assert(offsetof(GpuMapBias, per_inverse_w) == 4);
+static_assert(offsetof(GpuMapBias, slope_texels) == 8);
+static_assert(offsetof(GpuMapBias, slope_limit) == 12);
+static_assert(sizeof(GpuMapBias) == 16);
+
+// sm_Cascade: any map, and what its receivers are biased by.
+struct GpuCascade {
+    GpuShadowMap map;
+    GpuMapBias bias;
+};
+static_assert(offsetof(GpuCascade, map) == 0);
+static_assert(offsetof(GpuCascade, bias) == 80);
+static_assert(sizeof(GpuCascade) == 96);
+
+// sm_MapPenumbra of glsl/penumbra.glsl: what soft shadows need of one map.
+struct GpuMapPenumbra {
+    Vec4<float> rim_x{0.0f};
+    Vec4<float> rim_y{0.0f};
+    float depth_of_gap = 1.0f;
+    float largest_gap = 0.0f;
+    float unused[2] = {};
+};
+static_assert(offsetof(GpuMapPenumbra, rim_x) == 0);
+static_assert(offsetof(GpuMapPenumbra, rim_y) == 16);
+static_assert(offsetof(GpuMapPenumbra, depth_of_gap) == 32);
+static_assert(offsetof(GpuMapPenumbra, largest_gap) == 36);
+static_assert(sizeof(GpuMapPenumbra) == 48);
+
+// sm_Ranges: metres of eye depth.
+struct GpuRanges {
+    float blend_begin[max_splits] = {};
+    float end[max_splits] = {};
+};
+static_assert(offsetof(GpuRanges, blend_begin) == 0);
+static_assert(offsetof(GpuRanges, end) == 64);
+static_assert(sizeof(GpuRanges) == 128);
+
+// sm_Cascades
+struct GpuCascades {
+    GpuCascade at[max_splits];
+    GpuRanges ranges;
+    std::int32_t count = 0;
+    std::int32_t map_size = 0;
+    std::int32_t filter_radius = 0;
+    std::int32_t tap_plane = 0;
+};
+static_assert(offsetof(GpuCascades, at) == 0);
+static_assert(offsetof(GpuCascades, ranges) == 1536);
+static_assert(offsetof(GpuCascades, count) == 1664);
+static_assert(offsetof(GpuCascades, map_size) == 1668);
+static_assert(offsetof(GpuCascades, filter_radius) == 1672);
+static_assert(offsetof(GpuCascades, tap_plane) == 1676);
+static_assert(sizeof(GpuCascades) == 1680);
+
+// Finite whatever T is: a map that float cannot hold serves nothing.
+template <class T>
+[[nodiscard]] inline GpuShadowMap gpu_shadow_map(ShadowMap<T> const& map) noexcept {
+    GpuShadowMap gpu;
+    Mat4<float> const clip_from_world(map.clip_from_world);
+    float const w_min = static_cast<float>(map.w_min);
+    if (map.visible && all_finite(clip_from_world) && all_finite(&w_min, 1)) {
+        gpu.clip_from_world = clip_from_world;
+        gpu.w_min = w_min;
+        gpu.visible = 1;
+    }
+    gpu.depth_order = static_cast<std::int32_t>(map.clip.depth);
+    gpu.flip_v = map.clip.ndc_y == map.clip.texture_v ? 0 : 1;
+    return gpu;
+}
+
+template <class T>
+[[nodiscard]] inline GpuCascade gpu_map(ShadowMap<T> const& map, Light<T> const& light, int map_size,
+                                        BiasOptions<T> const& options) noexcept {
+    MapBias<T> const bias = bias_for(map, light, map_size, options);
+    GpuMapBias gpu{static_cast<float>(bias.constant), static_cast<float>(bias.per_inverse_w),
+                   static_cast<float>(bias.slope_texels), static_cast<float>(bias.slope_limit)};
+    bool const finite = all_finite(&gpu.constant, 1) && all_finite(&gpu.per_inverse_w, 1) &&
+                        all_finite(&gpu.slope_texels, 1) && all_finite(&gpu.slope_limit, 1);
+    return {gpu_shadow_map(map), finite ? gpu : GpuMapBias{}};
+}
+
+// Hard shadows where float cannot hold the numbers.
+template <class T>
+[[nodiscard]] inline GpuMapPenumbra gpu_penumbra(MapPenumbra<T> const& penumbra) noexcept {
+    GpuMapPenumbra gpu;
+    gpu.rim_x = Vec4<float>(penumbra.rim_x);
+    gpu.rim_y = Vec4<float>(penumbra.rim_y);
+    gpu.depth_of_gap = static_cast<float>(penumbra.depth_of_gap);
+    gpu.largest_gap = static_cast<float>(penumbra.largest_gap);
+    bool const finite = all_finite(gpu.rim_x) && all_finite(gpu.rim_y) && all_finite(&gpu.depth_of_gap, 2);
+    return finite && gpu.depth_of_gap > 0.0f ? gpu : GpuMapPenumbra{};
+}
+
+// Everything that a receiver shader needs of the cascades. `options` are those that they were fitted with; the filter
+// radius of `bias` is taken from there.
+template <class T>
+[[nodiscard]] inline GpuCascades gpu_cascades(Cascades<T> const& cascades, Light<T> const& light,
+                                              CascadeOptions<T> const& options, BiasOptions<T> bias = {}) noexcept {
+    GpuCascades gpu;
+    Faults told_already;
+    bias.filter_radius = detail::kernel_radius(options, told_already);
+    gpu.count = cascades.count;
+    gpu.map_size = options.map_size;
+    gpu.filter_radius = bias.filter_radius;
+    gpu.tap_plane = bias.tap_plane ? 1 : 0;
+    for (int i = 0; i < cascades.count; ++i) {
+        gpu.at[i] = gpu_map(cascades.at[i].map, light, options.map_size, bias);
+        gpu.ranges.blend_begin[i] = static_cast<float>(cascades.at[i].range.blend_begin);
+        gpu.ranges.end[i] = static_cast<float>(cascades.at[i].range.end);
+    }
+    return gpu;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/gpu_samples.hpp ========
+//
+// What the compute shaders of a sample-distribution fit are given, laid out as std140 and std430 have it, and what
+// their state looks like: the mirror of glsl/sample_layout.glsl. Nothing of it comes back: the shaders write the maps'
+// matrices to a buffer, and the passes that draw and read the maps take them from there.
+//
+//   GpuSampleFit const fit = gpu_sample_fit(camera, camera_clip, light, width, height, casters, splits, options);
+//   upload as the uniform block; run sdsm_begin, sdsm_depths, sdsm_splits, sdsm_bounds, sdsm_maps.
+
+namespace shadowmath {
+inline namespace v0 {
+
+struct GpuSampleFit {
+    Vec4<float> basis_x;      // w: z_near, metres of eye depth
+    Vec4<float> basis_y;      // w: z_far
+    Vec4<float> basis_depth;  // w: least ratio of a split
+    Vec4<float>
+        inverse_along;       // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
+    Vec4<float> eye;         // in light space; w: texels along a side of the map
+    Vec4<float> forward;     // of the eye, in light space; w: margin as a share of the body's extent
+    Vec4<float> right;       // w: 1 / (usable texels - 1), for still maps
+    Vec4<float> up;          // w: what the depth buffer is cleared to
+    Vec4<float> first_step;  // sides at the centre of pixel (0, 0), and from pixel to pixel
+    Vec4<float> casters_lo;  // world
+    Vec4<float> casters_hi;
+    Vec4<float> depth_code;  // numerator's scale and offset, denominator's scale and offset
+    Vec4<float> bias;        // of BiasOptions: flat_texels, texels, steepest, depth_step
+    Mat4<float> clip_from_canonical{1.0f};
+    std::int32_t width = 0;  // pixels
+    std::int32_t height = 0;
+    std::int32_t count = 0;     // splits; 0 where there is nothing to fit
+    std::int32_t adaptive = 0;  // 1: SampleSplits::adaptive
+    std::int32_t orthographic = 0;
+    std::int32_t still = 0;
+    std::int32_t pancake = 0;
+    std::int32_t unused = 0;
+};
+static_assert(offsetof(GpuSampleFit, clip_from_canonical) == 208 && offsetof(GpuSampleFit, width) == 272 &&
+                  offsetof(GpuSampleFit, orthographic) == 288 && sizeof(GpuSampleFit) == 304,
+              "glsl/sample_layout.glsl");
+
+// The shaders' own: bins and boxes as bits that order as the numbers do. For tests, and to size the buffer.
+struct GpuSampleState {
+    std::uint32_t bin_lo[depth_bins];
+    std::uint32_t bin_hi[depth_bins];
+    std::uint32_t counted;
+    std::uint32_t outside;
+    std::uint32_t not_finite;
+    std::int32_t count;                   // splits
+    Vec4<float> range[max_splits];        // metres of eye depth: begin, blend_begin, end
+    std::uint32_t box_lo[max_splits][4];  // light space relative to the eye
+    std::uint32_t box_hi[max_splits][4];
+};
+static_assert(offsetof(GpuSampleState, range) == 4112 && offsetof(GpuSampleState, box_lo) == 4368 &&
+                  sizeof(GpuSampleState) == 4880,
+              "glsl/sample_layout.glsl");
+
+template <class T>
+struct SampleSplitOptions {
+    int count = 4;
+    SampleSplits kind = SampleSplits::adaptive;
+    T least_ratio = T(1.05);
+    T blend = T(0);
+};
+
+// The maps that the shaders make of these are those of sample_splits and fit_samples at T = float, fed with the same
+// samples, to the last bit (as long as no compiler contracts a product and a sum: -ffp-contract=off, `precise`).
+//
+// `camera` and `camera_clip` are what the depth buffer was drawn with; samples from shadow_distance on get no shadow
+// (0: camera.z_far). Inputs with faults give count = 0, and the shaders make no map.
+[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<float> const& camera, ClipSpace camera_clip,
+                                                 float shadow_distance, Light<float> const& light, int width,
+                                                 int height, Aabb<float> const& casters,
+                                                 SampleSplitOptions<float> const& splits,
+                                                 SampleFitOptions<float> const& options,
+                                                 BiasOptions<float> const& bias = {}) noexcept {
+    GpuSampleFit fit;
+    bool const cut = all_finite(&shadow_distance, 1) && shadow_distance > 0.0f;
+    float const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
+    SampleRays<float> const rays = sample_rays(camera, light, width, height);
+    DepthCode<float> const code = depth_code(camera, camera_clip);
+    Faults const faults = faults_of_margin(options.map_size, options.margin_texels);
+    bool const usable = rays.usable && !no_depths(camera.z_near, z_far).faults.any() && all_finite(casters) &&
+                        !is_empty(casters) && !faults.has(Fault::not_finite) && !faults.has(Fault::map_too_small);
+    if (!usable) return fit;
+
+    float const size = static_cast<float>(options.map_size);
+    float const usable_size = usable_texels(options.map_size, options.margin_texels);
+    constexpr float eps = std::numeric_limits<float>::epsilon();
+    Vec4<float> inverse_along(0.0f);
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(rays.basis.depth[k]) > detail::least_along<float>) inverse_along[k] = 1.0f / rays.basis.depth[k];
+    inverse_along.w = splits.blend > 0.0f ? (splits.blend < 1.0f ? splits.blend : 1.0f) : 0.0f;
+    fit.basis_x = Vec4<float>(rays.basis.x, camera.z_near);
+    fit.basis_y = Vec4<float>(rays.basis.y, z_far);
+    fit.basis_depth = Vec4<float>(rays.basis.depth, detail::usable_ratio(splits.least_ratio));
+    fit.inverse_along = inverse_along;
+    fit.eye = Vec4<float>(rays.eye, size);
+    fit.forward = Vec4<float>(rays.forward, options.still ? 0.0f : 0.5f * (size - usable_size) / usable_size);
+    fit.right = Vec4<float>(rays.right, 1.0f / (usable_size - 1.0f) * (1.0f + 4.0f * eps));
+    fit.up = Vec4<float>(rays.up, code.sky);
+    fit.first_step = Vec4<float>(rays.first.x, rays.first.y, rays.step.x, rays.step.y);
+    Vec3<float> const farthest(detail::farthest_metres<float>);
+    Aabb<float> const reached = intersect(casters, Aabb<float>{-farthest, farthest});
+    fit.casters_lo = Vec4<float>(reached.lo, 0.0f);
+    fit.casters_hi = Vec4<float>(reached.hi, 0.0f);
+    fit.depth_code = Vec4<float>(code.num_scale, code.num_offset, code.den_scale, code.den_offset);
+    fit.bias = Vec4<float>(detail::option(bias.flat_texels, 0.0f), detail::option(bias.texels, 0.0f),
+                           detail::option(bias.steepest, 20.0f), detail::option(bias.depth_step, 0.0f));
+    fit.clip_from_canonical = clip_from_canonical<float>(options.clip);
+    fit.width = width;
+    fit.height = height;
+    fit.count = splits.count < 0 ? 0 : (splits.count > max_splits ? max_splits : splits.count);
+    fit.adaptive = splits.kind == SampleSplits::adaptive ? 1 : 0;
+    fit.orthographic = rays.kind == ViewKind::orthographic ? 1 : 0;
+    fit.still = options.still ? 1 : 0;
+    fit.pancake = options.pancake ? 1 : 0;
+    return fit;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/microquad.hpp ========
+//
+// A pixel as a piece of the surface it shows: the tangent plane at the pixel's point, seen through the pixel's four
+// corners. Three numbers a pixel are all that it takes.
+//
+// Everything irregular is computed in the PIXEL FRAME, the eye's own axes scaled so that a point of depth d that is
+// seen at (x, y) pixels from the middle of the picture is d * (x, y, 1); of an orthographic eye it is (x, y, d). There
+//
+//   one over the depth of a plane is affine in x and y (the depth itself, for an orthographic eye), so a plane is
+//   three numbers: q at the pixel's corner, and its gain for a pixel in x and in y;
+//   the sign of a half space n . p + c at a point of the surface is that of n.x x + n.y y + n.z + c q, which is affine
+//   in x and y as well: seen through one pixel, any half space is a half plane with a straight border, exactly.
+//
+// Source: Wyman, Hoetzlein and Lefohn, I3D 2015, for the quad and its three stored distances. Here they are inverse
+// distances along the eye's axis, which makes every later test linear.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// The eye's picture, width x height pixels, as a frame of space.
+template <class T>
+struct PixelFrame {
+    Vec3<T> eye{T(0)};                       // world
+    Vec3<T> across{T(1), T(0), T(0)};        // world: one pixel to the right, at depth 1
+    Vec3<T> upward{T(0), T(1), T(0)};        // one row on
+    Vec3<T> inward{T(0), T(0), T(-1)};       // one metre of depth, through the middle of the picture
+    Vec3<T> to_across{T(1), T(0), T(0)};     // rows of the inverse: dotted with point - eye
+    Vec3<T> to_upward{T(0), T(1), T(0)};
+    Vec3<T> to_inward{T(0), T(0), T(-1)};
+    Vec2<T> origin{T(0)};                    // orthographic: pixels from the eye's axis to the middle of the picture
+    int width = 0;
+    int height = 0;
+    ViewKind kind = ViewKind::perspective;
+    Faults faults;                           // of the view; map_too_small for a picture without pixels
+};
+
+// `rows`: whether rows of the picture count upward (OpenGL's and this library's backends) or downward.
+template <class T>
+[[nodiscard]] inline PixelFrame<T> pixel_frame(ViewVolume<T> const& view, int width, int height,
+                                               YAxis rows = YAxis::up) noexcept {
+    PixelFrame<T> frame;
+    frame.faults = faults_of(view);
+    if (width < 1 || height < 1) frame.faults |= Fault::map_too_small;
+    if (frame.faults.any()) return frame;
+    frame.width = width;
+    frame.height = height;
+    frame.kind = view.kind;
+    frame.eye = view.pose.position;
+    Vec3<T> const& right = view.pose.right;
+    Vec3<T> const up = rows == YAxis::up ? view.pose.up : -view.pose.up;
+    T const x_step = (view.right - view.left) / T(width), y_step = (view.top - view.bottom) / T(height);
+    T const x_middle = (view.left + view.right) / T(2);
+    T const y_middle = (view.bottom + view.top) / (rows == YAxis::up ? T(2) : T(-2));
+    frame.across = right * x_step;
+    frame.upward = up * y_step;
+    frame.to_across = right / x_step;
+    frame.to_upward = up / y_step;
+    frame.inward = frame.to_inward = view.pose.forward;
+    if (view.kind == ViewKind::orthographic) {
+        frame.origin = Vec2<T>(x_middle / x_step, y_middle / y_step);
+        return frame;
+    }
+    frame.inward += right * x_middle + up * y_middle;
+    frame.to_across -= view.pose.forward * (x_middle / x_step);
+    frame.to_upward -= view.pose.forward * (y_middle / y_step);
+    return frame;
+}
+
+// A direction, or a point relative to a perspective eye.
+template <class T>
+[[nodiscard]] inline Vec3<T> direction_in_pixels(PixelFrame<T> const& frame, Vec3<T> const& v) noexcept {
+    return Vec3<T>(glm::dot(frame.to_across, v), glm::dot(frame.to_upward, v), glm::dot(frame.to_inward, v));
+}
+
+template <class T>
+[[nodiscard]] inline Vec3<T> point_in_pixels(PixelFrame<T> const& frame, Vec3<T> const& point) noexcept {
+    return direction_in_pixels(frame, point - frame.eye) - Vec3<T>(frame.origin, T(0));
+}
+
+// A covector of the pixel frame, arranged so that its value at a point of a surface is x X + y Y + a + b q: half
+// spaces are made of it, and the rows of a map's matrix.
+template <class T>
+struct PixelPlane {
+    T x;
+    T y;
+    T a;
+    T b;
+};
+
+// The plane whose value at a point of the pixel frame is normal . point + offset, over the point's depth where the eye
+// is one of perspective: the same sign.
+template <class T>
+[[nodiscard]] inline PixelPlane<T> pixel_plane(ViewKind kind, Vec3<T> const& normal, T offset) noexcept {
+    if (kind == ViewKind::perspective) return {normal.x, normal.y, normal.z, offset};
+    return {normal.x, normal.y, offset, normal.z};
+}
+
+template <class T>
+struct MicroQuad {
+    T q = T(0);    // at the pixel's corner of least x and y: 1 / depth, or depth for an orthographic eye
+    T q_x = T(0);  // gained from there to the next corner in x
+    T q_y = T(0);
+    bool ok = false;
+};
+
+// How far one over the depth may change within half a pixel, as a share of its value in the middle: from 2/3 of the
+// depth to twice it. A plane that is seen more nearly edge-on is turned toward the eye until it is not.
+template <class T>
+inline constexpr T steepest_quad = T(0.5);
+
+// The same for an orthographic eye: how many pixels deep half a pixel may be.
+template <class T>
+inline constexpr T deepest_quad = T(1000);
+
+namespace detail {
+
+// The covector of a world normal: dotted with a point of the pixel frame it is what the normal is with that point.
+template <class T>
+[[nodiscard]] inline Vec3<T> normal_in_pixels(PixelFrame<T> const& frame, Vec3<T> const& normal) noexcept {
+    return Vec3<T>(glm::dot(frame.across, normal), glm::dot(frame.upward, normal), glm::dot(frame.inward, normal));
+}
+
+// How much |n.x| + |n.y| weighs against what faces the eye: the reciprocal of twice the limits above.
+template <class T>
+[[nodiscard]] inline T turn_limit(PixelFrame<T> const& frame) noexcept {
+    if (frame.kind == ViewKind::perspective) return T(1) / (T(2) * steepest_quad<T>);
+    return T(1) / (T(2) * deepest_quad<T> * glm::length(frame.across));
+}
+
+}  // namespace detail
+
+// The piece of the plane through `depth` in the middle of pixel (column, row). The normal is the surface's own, not the
+// one for shading; its length and sign do not matter. Not ok where anything is not finite, the normal has no length,
+// or the depth is not positive before an eye of perspective.
+template <class T>
+[[nodiscard]] inline MicroQuad<T> micro_quad(PixelFrame<T> const& frame, int column, int row, T const& depth,
+                                             Vec3<T> const& normal_in_world) noexcept {
+    bool const flat = frame.kind == ViewKind::orthographic;
+    if (!all_finite(&depth, 1) || !all_finite(normal_in_world) || (!flat && !(depth > T(0)))) return {};
+    Vec3<T> const n = detail::normal_in_pixels(frame, normal_in_world);
+    T const x = T(column) + T(0.5) - T(frame.width) / T(2), y = T(row) + T(0.5) - T(frame.height) / T(2);
+    T const facing = flat ? -n.z : n.x * x + n.y * y + n.z;
+    T const steep = (std::abs(n.x) + std::abs(n.y)) * detail::turn_limit(frame);
+    T const divisor = std::copysign(std::abs(facing) > steep ? std::abs(facing) : steep, facing);
+    if (divisor == T(0)) return {};
+    T const scale = T(1) / (flat ? divisor : divisor * depth);
+    MicroQuad<T> quad;
+    quad.q_x = n.x * scale;
+    quad.q_y = n.y * scale;
+    quad.q = (flat ? depth : divisor * scale) - (quad.q_x + quad.q_y) / T(2);
+    quad.ok = all_finite(&quad.q, 1) && all_finite(&quad.q_x, 1) && all_finite(&quad.q_y, 1);
+    return quad;
+}
+
+// The world point of the surface at (u, v) of the pixel, each from 0 at its corner to 1 at the next.
+template <class T>
+[[nodiscard]] inline Vec3<T> point_on(PixelFrame<T> const& frame, MicroQuad<T> const& quad, int column, int row, T u,
+                                      T v) noexcept {
+    T const x = T(column) + u - T(frame.width) / T(2), y = T(row) + v - T(frame.height) / T(2);
+    T const q = quad.q + quad.q_x * u + quad.q_y * v;
+    if (frame.kind == ViewKind::orthographic)
+        return frame.eye + frame.across * (x + frame.origin.x) + frame.upward * (y + frame.origin.y) + frame.inward * q;
+    return frame.eye + (frame.across * x + frame.upward * y + frame.inward) / q;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/lanes.hpp ========
+//
+// Sixteen numbers at once: one for each pixel of a 4 x 4 tile, or for sixteen nodes of a list. The kernels of the
+// irregular z-buffer are written once, on these operations; which registers hold the numbers is a type.
+//
+//   PlainLanes<T>   an array, for any scalar type and machine; the twin that all others must agree with
+//   Avx512Lanes     one register; where the compiler is told so (-march=native)
+//   Avx2Lanes       two registers
+//   BestLanes<T>    the fastest of them in this translation unit
+//
+// The type is a template argument of every kernel, so translation units built for different machines can be linked.
+// A fused operation rounds once or twice, as the machine has it; negating an operand negates the result in any case.
+
+#if defined(__AVX512F__) || (defined(__AVX2__) && defined(__FMA__))
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push  // false alarms inside that header: GCC bug 105593
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <immintrin.h>
+#pragma GCC diagnostic pop
+#else
+#include <immintrin.h>
+#endif
+#endif
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int lane_count = 16;
+
+template <class T>
+struct PlainLanes {
+    using Scalar = T;
+    T lane[lane_count];
+
+    [[nodiscard]] static PlainLanes all(T value) noexcept {
+        return each([value](int) { return value; });
+    }
+    [[nodiscard]] static PlainLanes load(T const* from) noexcept {
+        return each([from](int k) { return from[k]; });
+    }
+    void store(T* to) const noexcept {
+        for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
+    }
+    template <class Value>
+    [[nodiscard]] static PlainLanes each(Value const& value) noexcept {
+        PlainLanes made;
+        for (int k = 0; k < lane_count; ++k) made.lane[k] = value(k);
+        return made;
+    }
+
+    friend PlainLanes operator+(PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return a.lane[k] + b.lane[k]; });
+    }
+    friend PlainLanes operator-(PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return a.lane[k] - b.lane[k]; });
+    }
+    friend PlainLanes operator*(PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return a.lane[k] * b.lane[k]; });
+    }
+    friend PlainLanes operator/(PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return a.lane[k] / b.lane[k]; });
+    }
+    // The second where either is NaN.
+    friend PlainLanes least(PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return a.lane[k] < b.lane[k] ? a.lane[k] : b.lane[k]; });
+    }
+    friend PlainLanes most(PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return a.lane[k] > b.lane[k] ? a.lane[k] : b.lane[k]; });
+    }
+    // 1 / a to four roundings; anything where a is 0 or not finite.
+    friend PlainLanes reciprocal(PlainLanes const& a) noexcept {
+        return each([&](int k) { return T(1) / a.lane[k]; });
+    }
+    friend PlainLanes absolute(PlainLanes const& a) noexcept {
+        return each([&](int k) { return std::abs(a.lane[k]); });
+    }
+    friend PlainLanes with_sign_of(PlainLanes const& magnitude, PlainLanes const& sign) noexcept {
+        return each([&](int k) { return std::copysign(magnitude.lane[k], sign.lane[k]); });
+    }
+    friend PlainLanes fused(PlainLanes const& a, PlainLanes const& b, PlainLanes const& c) noexcept {
+        return each([&](int k) { return a.lane[k] * b.lane[k] + c.lane[k]; });
+    }
+    // Bit k: a >= b in lane k. Not where either is NaN.
+    friend std::uint32_t at_least(PlainLanes const& a, PlainLanes const& b) noexcept {
+        std::uint32_t bits = 0;
+        for (int k = 0; k < lane_count; ++k) bits |= (a.lane[k] >= b.lane[k] ? 1u : 0u) << k;
+        return bits;
+    }
+    friend T smallest(PlainLanes const& a) noexcept {
+        T found = a.lane[0];
+        for (int k = 1; k < lane_count; ++k) found = a.lane[k] < found ? a.lane[k] : found;
+        return found;
+    }
+    friend T largest(PlainLanes const& a) noexcept {
+        T found = a.lane[0];
+        for (int k = 1; k < lane_count; ++k) found = a.lane[k] > found ? a.lane[k] : found;
+        return found;
+    }
+    // Lanes of a where the bit is set, else those of b.
+    friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {
+        return each([&](int k) { return (bits >> k & 1u) != 0 ? a.lane[k] : b.lane[k]; });
+    }
+};
+
+#if defined(__AVX512F__)
+
+struct Avx512Lanes {
+    using Scalar = float;
+    __m512 lanes;
+
+    [[nodiscard]] static Avx512Lanes all(float value) noexcept { return {_mm512_set1_ps(value)}; }
+    [[nodiscard]] static Avx512Lanes load(float const* from) noexcept { return {_mm512_loadu_ps(from)}; }
+    void store(float* to) const noexcept { _mm512_storeu_ps(to, lanes); }
+
+    friend Avx512Lanes operator+(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_add_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes operator-(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_sub_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes operator*(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_mul_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes operator/(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_div_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes least(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_min_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes most(Avx512Lanes a, Avx512Lanes b) noexcept { return {_mm512_max_ps(a.lanes, b.lanes)}; }
+    friend Avx512Lanes reciprocal(Avx512Lanes a) noexcept {
+        __m512 const rough = _mm512_rcp14_ps(a.lanes);  // 14 bits; a step of Newton's doubles them
+        return {_mm512_mul_ps(rough, _mm512_fnmadd_ps(a.lanes, rough, _mm512_set1_ps(2.0f)))};
+    }
+    friend Avx512Lanes absolute(Avx512Lanes a) noexcept { return {_mm512_abs_ps(a.lanes)}; }
+    friend Avx512Lanes with_sign_of(Avx512Lanes magnitude, Avx512Lanes sign) noexcept {
+        __m512i const top = _mm512_set1_epi32(static_cast<int>(0x80000000u));
+        // a where top, else b.
+        return {_mm512_castsi512_ps(_mm512_ternarylogic_epi32(top, _mm512_castps_si512(sign.lanes),
+                                                              _mm512_castps_si512(magnitude.lanes), 0xca))};
+    }
+    friend Avx512Lanes fused(Avx512Lanes a, Avx512Lanes b, Avx512Lanes c) noexcept {
+        return {_mm512_fmadd_ps(a.lanes, b.lanes, c.lanes)};
+    }
+    friend std::uint32_t at_least(Avx512Lanes a, Avx512Lanes b) noexcept {
+        return _mm512_cmp_ps_mask(a.lanes, b.lanes, _CMP_GE_OQ);
+    }
+    friend float smallest(Avx512Lanes a) noexcept { return _mm512_reduce_min_ps(a.lanes); }
+    friend float largest(Avx512Lanes a) noexcept { return _mm512_reduce_max_ps(a.lanes); }
+    friend Avx512Lanes chosen(std::uint32_t bits, Avx512Lanes a, Avx512Lanes b) noexcept {
+        return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.lanes, a.lanes)};
+    }
+};
+
+#endif
+
+#if defined(__AVX2__) && defined(__FMA__)
+
+struct Avx2Lanes {
+    using Scalar = float;
+    __m256 first;
+    __m256 second;
+
+    [[nodiscard]] static Avx2Lanes all(float value) noexcept { return {_mm256_set1_ps(value), _mm256_set1_ps(value)}; }
+    [[nodiscard]] static Avx2Lanes load(float const* from) noexcept {
+        return {_mm256_loadu_ps(from), _mm256_loadu_ps(from + 8)};
+    }
+    void store(float* to) const noexcept {
+        _mm256_storeu_ps(to, first);
+        _mm256_storeu_ps(to + 8, second);
+    }
+
+    friend Avx2Lanes operator+(Avx2Lanes a, Avx2Lanes b) noexcept {
+        return {_mm256_add_ps(a.first, b.first), _mm256_add_ps(a.second, b.second)};
+    }
+    friend Avx2Lanes operator-(Avx2Lanes a, Avx2Lanes b) noexcept {
+        return {_mm256_sub_ps(a.first, b.first), _mm256_sub_ps(a.second, b.second)};
+    }
+    friend Avx2Lanes operator*(Avx2Lanes a, Avx2Lanes b) noexcept {
+        return {_mm256_mul_ps(a.first, b.first), _mm256_mul_ps(a.second, b.second)};
+    }
+    friend Avx2Lanes operator/(Avx2Lanes a, Avx2Lanes b) noexcept {
+        return {_mm256_div_ps(a.first, b.first), _mm256_div_ps(a.second, b.second)};
+    }
+    friend Avx2Lanes least(Avx2Lanes a, Avx2Lanes b) noexcept {
+        return {_mm256_min_ps(a.first, b.first), _mm256_min_ps(a.second, b.second)};
+    }
+    friend Avx2Lanes most(Avx2Lanes a, Avx2Lanes b) noexcept {
+        return {_mm256_max_ps(a.first, b.first), _mm256_max_ps(a.second, b.second)};
+    }
+    friend Avx2Lanes reciprocal(Avx2Lanes a) noexcept { return all(1.0f) / a; }
+    friend Avx2Lanes absolute(Avx2Lanes a) noexcept {
+        __m256 const top = _mm256_set1_ps(-0.0f);
+        return {_mm256_andnot_ps(top, a.first), _mm256_andnot_ps(top, a.second)};
+    }
+    friend Avx2Lanes with_sign_of(Avx2Lanes magnitude, Avx2Lanes sign) noexcept {
+        __m256 const top = _mm256_set1_ps(-0.0f);
+        return {_mm256_or_ps(_mm256_andnot_ps(top, magnitude.first), _mm256_and_ps(top, sign.first)),
+                _mm256_or_ps(_mm256_andnot_ps(top, magnitude.second), _mm256_and_ps(top, sign.second))};
+    }
+    friend Avx2Lanes fused(Avx2Lanes a, Avx2Lanes b, Avx2Lanes c) noexcept {
+        return {_mm256_fmadd_ps(a.first, b.first, c.first), _mm256_fmadd_ps(a.second, b.second, c.second)};
+    }
+    friend std::uint32_t at_least(Avx2Lanes a, Avx2Lanes b) noexcept {
+        int const low = _mm256_movemask_ps(_mm256_cmp_ps(a.first, b.first, _CMP_GE_OQ));
+        int const high = _mm256_movemask_ps(_mm256_cmp_ps(a.second, b.second, _CMP_GE_OQ));
+        return static_cast<std::uint32_t>(low) | static_cast<std::uint32_t>(high) << 8;
+    }
+    friend float smallest(Avx2Lanes a) noexcept {
+        __m256 const eight = _mm256_min_ps(a.first, a.second);
+        __m128 const four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+        __m128 const two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
+    }
+    friend float largest(Avx2Lanes a) noexcept {
+        __m256 const eight = _mm256_max_ps(a.first, a.second);
+        __m128 const four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+        __m128 const two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)));
+    }
+    friend Avx2Lanes chosen(std::uint32_t bits, Avx2Lanes a, Avx2Lanes b) noexcept {
+        __m256i const lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        auto const mask = [lane](std::uint32_t part) {
+            __m256i const here = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(part)), lane);
+            return _mm256_castsi256_ps(_mm256_cmpeq_epi32(here, lane));
+        };
+        return {_mm256_blendv_ps(b.first, a.first, mask(bits & 0xffu)),
+                _mm256_blendv_ps(b.second, a.second, mask(bits >> 8))};
+    }
+};
+
+#endif
+
+namespace detail {
+
+// The same words for a single number, so that a formula can be written once for one and for sixteen.
+template <class T>
+[[nodiscard]] inline T fused(T a, T b, T c) noexcept {
+    return a * b + c;
+}
+template <class T>
+[[nodiscard]] inline T absolute(T a) noexcept {
+    return std::abs(a);
+}
+template <class T>
+[[nodiscard]] inline T with_sign_of(T magnitude, T sign) noexcept {
+    return std::copysign(magnitude, sign);
+}
+
+template <class T>
+struct LanesFor {
+    using Type = PlainLanes<T>;
+};
+#if defined(__AVX512F__)
+template <>
+struct LanesFor<float> {
+    using Type = Avx512Lanes;
+};
+#elif defined(__AVX2__) && defined(__FMA__)
+template <>
+struct LanesFor<float> {
+    using Type = Avx2Lanes;
+};
+#endif
+
+}  // namespace detail
+
+template <class T>
+using BestLanes = typename detail::LanesFor<T>::Type;
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/edge.hpp ========
+//
+// The shadow volume of a triangle as four half spaces, each arranged so that one pixel of a surface sees it as a half
+// plane: the triangle's own plane, and one through the light and each edge.
+//
+//   a sample is in shadow  <=>  it is behind the triangle, and on the inner side of all three edge planes
+//                          <=>  the segment from the sample to the light meets the triangle
+//
+// An edge's plane depends on its two ends alone and changes nothing but its sign when they are exchanged: the two
+// triangles at a shared edge see exactly opposite values, to the last bit. A value of 0 is inside for both, so no light
+// leaks between them. Triangles cast on both sides, however they wind.
+//
+// Source: Wyman, Hoetzlein and Lefohn, I3D 2015; the sums over both ends instead of one are ours.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// The light in the pixel frame: how it travels, or where it stands.
+template <class T>
+struct PixelLight {
+    Vec3<T> at{T(0)};
+    bool parallel = true;
+};
+
+template <class T>
+[[nodiscard]] inline PixelLight<T> pixel_light(PixelFrame<T> const& frame, Light<T> const& light) noexcept {
+    if (light.kind == LightKind::directional) return {direction_in_pixels(frame, light.direction), true};
+    return {point_in_pixels(frame, light.position), false};
+}
+
+// A sample nearer to the plane of a triangle than this is not in its shadow: it lies on that triangle, or on a
+// neighbour in the same plane, and the side on which rounding left it means nothing.
+template <class T>
+struct ContactMargin {
+    T metres = T(0);
+    T share = T(0);  // of the sample's depth, on top
+};
+
+// Of one triangle where V is a scalar, of sixteen where it is Lanes. planes[0] is the triangle's own, then its edges'.
+template <class V>
+struct ShadowVolume {
+    PixelPlane<V> planes[4];
+    V along;  // the triangle's normal with the light: 0 where it has no area as seen from there, and casts nothing
+};
+
+namespace detail {
+
+template <class V>
+struct Triple {
+    V x, y, z;
+};
+
+template <class V>
+[[nodiscard]] inline Triple<V> difference(Triple<V> const& a, Triple<V> const& b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class V>
+[[nodiscard]] inline Triple<V> sum(Triple<V> const& a, Triple<V> const& b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class V>
+[[nodiscard]] inline Triple<V> scaled(Triple<V> const& a, V const& by) noexcept {
+    return {a.x * by, a.y * by, a.z * by};
+}
+template <class V>
+[[nodiscard]] inline V inner(Triple<V> const& a, Triple<V> const& b) noexcept {
+    return fused(a.x, b.x, fused(a.y, b.y, a.z * b.z));
+}
+// Negated to the last bit when b is.
+template <class V>
+[[nodiscard]] inline Triple<V> crossed(Triple<V> const& a, Triple<V> const& b) noexcept {
+    V const zero = a.x - a.x;
+    return {fused(a.y, b.z, zero - a.z * b.y), fused(a.z, b.x, zero - a.x * b.z), fused(a.x, b.y, zero - a.y * b.x)};
+}
+
+// `all` makes a V of a scalar.
+template <class V, class T, class All>
+[[nodiscard]] inline ShadowVolume<V> volume_of(PixelFrame<T> const& frame, PixelLight<T> const& light,
+                                               Triple<V> const (&p)[3], V const& margin_metres, T margin_share,
+                                               All const& all) noexcept {
+    auto const triple = [&all](Vec3<T> const& v) { return Triple<V>{all(v.x), all(v.y), all(v.z)}; };
+    auto const plane = [&frame](Triple<V> const& n, V const& offset) {
+        if (frame.kind == ViewKind::perspective) return PixelPlane<V>{n.x, n.y, n.z, offset};
+        return PixelPlane<V>{n.x, n.y, offset, n.z};
+    };
+    Triple<V> const source = triple(light.at);
+    Triple<V> const normal = crossed(difference(p[1], p[0]), difference(p[2], p[0]));
+    ShadowVolume<V> volume;
+    volume.along = inner(normal, light.parallel ? source : difference(p[0], source));
+    // Where the light meets the other side, everything is turned over.
+    V const sign = with_sign_of(all(T(1)), volume.along);
+    Triple<V> const facing = scaled(normal, sign);
+    Triple<V> const in_world = sum(scaled(triple(frame.to_across), facing.x),
+                                   sum(scaled(triple(frame.to_upward), facing.y), scaled(triple(frame.to_inward), facing.z)));
+    V const unit = absolute(in_world.x) + absolute(in_world.y) + absolute(in_world.z);
+    volume.planes[0] = plane({facing.x, facing.y, facing.z - unit * all(margin_share)},
+                             all(T(0)) - fused(unit, margin_metres, inner(facing, p[0])));
+    for (int i = 0; i < 3; ++i) {
+        Triple<V> const &from = p[i], &to = p[(i + 1) % 3];
+        Triple<V> const both = sum(from, to);
+        Triple<V> const away = light.parallel ? source : difference(both, scaled(source, all(T(2))));
+        Triple<V> const n = crossed(away, scaled(difference(to, from), sign));
+        volume.planes[1 + i] = plane(n, inner(n, both) * all(T(-0.5)));
+    }
+    return volume;
+}
+
+}  // namespace detail
+
+// The vertices are points of the pixel frame, finite. The margin is taken along the triangle's normal: exactly along
+// the axes, up to sqrt(3) times as much off them.
+template <class T>
+[[nodiscard]] inline ShadowVolume<T> shadow_volume(PixelFrame<T> const& frame, PixelLight<T> const& light,
+                                                   Vec3<T> const& p0, Vec3<T> const& p1, Vec3<T> const& p2,
+                                                   ContactMargin<T> const& margin) noexcept {
+    detail::Triple<T> const p[3] = {{p0.x, p0.y, p0.z}, {p1.x, p1.y, p1.z}, {p2.x, p2.y, p2.z}};
+    return detail::volume_of(frame, light, p, margin.metres, margin.share, [](T value) { return value; });
+}
+
+// What a pixel sees of a half space: inside where c + x u + y v >= 0, u and v from 0 to 1 over the pixel.
+template <class T>
+struct PixelLine {
+    T c = T(0);
+    T x = T(0);
+    T y = T(0);
+};
+
+template <class T>
+[[nodiscard]] inline PixelLine<T> line_across(PixelFrame<T> const& frame, PixelPlane<T> const& plane,
+                                              MicroQuad<T> const& quad, int column, int row) noexcept {
+    T const x = T(column) - T(frame.width) / T(2), y = T(row) - T(frame.height) / T(2);
+    return {plane.x * x + plane.y * y + plane.a + plane.b * quad.q, plane.x + plane.b * quad.q_x,
+            plane.y + plane.b * quad.q_y};
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/mask.hpp ========
+//
+// Thirty-two samples of a pixel as the bits of a word, and which of them a half plane holds: exactly, or out of a table
+// of 1024 words.
+//
+// Use the exact test where arithmetic is wide: it costs two fused operations and a comparison a register. The table is
+// for machines where a look-up is cheaper; it moves the line by at most table_displacement of a pixel.
+//
+// Source: 32 Halton points and 5 + 5 bits of angle and radius, Wyman, Hoetzlein and Lefohn, I3D 2015. How the two are
+// rounded is ours.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int samples_per_pixel = 32;
+inline constexpr std::uint32_t every_sample = 0xffffffffu;
+
+// Digits of `index` in this base, mirrored at the point.
+template <class T>
+[[nodiscard]] constexpr T radical_inverse(int base, int index) noexcept {
+    T value = T(0), place = T(1) / T(base);
+    for (; index > 0; index /= base, place /= T(base)) value += T(index % base) * place;
+    return value;
+}
+
+// In the pixel's unit square, bit i of a mask at (u[i], v[i]): the Halton points of bases 2 and 3 from index 1 on.
+template <class T>
+struct PixelSamples {
+    T u[samples_per_pixel];
+    T v[samples_per_pixel];
+};
+
+namespace detail {
+
+template <class T>
+[[nodiscard]] constexpr PixelSamples<T> halton_samples() noexcept {
+    PixelSamples<T> samples{};
+    for (int i = 0; i < samples_per_pixel; ++i) {
+        samples.u[i] = radical_inverse<T>(2, i + 1);
+        samples.v[i] = radical_inverse<T>(3, i + 1);
+    }
+    return samples;
+}
+
+}  // namespace detail
+
+template <class T>
+inline constexpr PixelSamples<T> pixel_samples = detail::halton_samples<T>();
+
+// The samples where c + x u + y v >= 0, evaluated as (c + x u) + y v. A line and its negative together hold every
+// sample.
+template <class Lanes, class T = typename Lanes::Scalar>
+[[nodiscard]] inline std::uint32_t half_plane_mask(PixelLine<T> const& line) noexcept {
+    Lanes const c = Lanes::all(line.c), x = Lanes::all(line.x), y = Lanes::all(line.y), zero = Lanes::all(T(0));
+    PixelSamples<T> const& at = pixel_samples<T>;
+    auto const half = [&](int first) {
+        return at_least(fused(y, Lanes::load(at.v + first), fused(x, Lanes::load(at.u + first), c)), zero);
+    };
+    return half(0) | half(lane_count) << lane_count;
+}
+
+inline constexpr int table_steps = 32;  // of angle, and of radius
+
+// Half a step of radius, and half a step of angle where a radius is longest: sqrt(1/2) (1 / 64 + pi / 32).
+inline constexpr double table_displacement = 0.0805;
+
+// The masks of half planes n . (s - middle) >= r, by angle of n and then by r from 0 to sqrt(1/2).
+struct HalfPlaneTable {
+    std::array<std::uint32_t, table_steps * table_steps> masks;
+};
+
+[[nodiscard]] inline HalfPlaneTable half_plane_table() noexcept {
+    HalfPlaneTable table{};
+    double const step = 6.283185307179586 / table_steps, reach = 0.7071067811865476 / table_steps;
+    for (int k = 0; k < table_steps; ++k)
+        for (int j = 0; j < table_steps; ++j) {
+            double const x = std::cos((k + 0.5) * step), y = std::sin((k + 0.5) * step);
+            PixelLine<double> const line{-(x + y) / 2.0 - (j + 0.5) * reach, x, y};
+            table.masks[static_cast<std::size_t>(k * table_steps + j)] = half_plane_mask<PlainLanes<double>>(line);
+        }
+    return table;
+}
+
+// As half_plane_mask, but that samples within table_displacement of the line may be on either side.
+template <class T>
+[[nodiscard]] inline std::uint32_t half_plane_mask(HalfPlaneTable const& table, PixelLine<T> const& line) noexcept {
+    T const middle = line.c + (line.x + line.y) / T(2);
+    T const length = std::sqrt(line.x * line.x + line.y * line.y);
+    T const r = -middle;
+    T const reach = T(0.70710678118654752440L) * length;
+    if (!(r < reach)) return length == T(0) && r <= T(0) ? every_sample : 0u;
+    if (r <= -reach) return every_sample;
+    // A line beyond the middle is the complement of its opposite.
+    bool const beyond = r < T(0);
+    T const angle = beyond ? std::atan2(-line.y, -line.x) : std::atan2(line.y, line.x);
+    constexpr T turns = T(table_steps) / T(6.283185307179586476925286766559L);
+    int const k = static_cast<int>(std::floor(angle * turns)) & (table_steps - 1);
+    int const j = static_cast<int>(std::abs(r) / reach * T(table_steps));
+    std::uint32_t const mask = table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
+    return beyond ? ~mask : mask;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/grid.hpp ========
+//
+// The irregular z-buffer: the receivers of a picture, sorted by where the light sees them. Any matrix of this library
+// may be the grid. It decides how long the lists are, and so the speed; the answer is the same for all.
+//
+// A node is a tile of 4 x 4 pixels, or a part of one where the tile straddles a silhouette, with bounds as the light
+// sees it. Each is listed in every texel that its footprint touches, at the level whose texels are as large as the
+// footprint: never more than 2 x 2, however the picture and the map differ in scale. A counting sort lays the lists of
+// a row of texels end to end, in the order of the picture; so what a triangle may cover is one run a row.
+//
+// No memory is taken: the caller hands over two arrays, and storage_for says how long they must be. Rows of a picture
+// can be split over several buffers, one a thread, that share nothing.
+//
+// Source: Johnson et al., TOG 24(4) 2005; Wyman, Hoetzlein and Lefohn, TVCG 22(10) 2016. Theirs lists pixels; tiles of
+// sixteen, levels and bounds in the nodes are ours.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int tile_side = 4;
+inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
+inline constexpr int most_levels = 8;
+inline constexpr int cell_shift = 4;   // a cell is 16 x 16 texels of the finest
+
+// What the eye sees, row by row, `width` pixels each. Sky is a pixel whose normal is zero, whose depth is not positive,
+// or of which anything is not finite.
+template <class T>
+struct Receivers {
+    T const* position = nullptr;  // world; three scalars a pixel, `position_stride` apart
+    int position_stride = 3;
+    T const* depth = nullptr;     // instead of positions: metres along the view's forward axis, one a pixel
+    T const* normal = nullptr;    // of the surface, not for shading; any length and sign
+    int normal_stride = 3;
+};
+
+// Part of a picture; a width or height of 0 stands for all that follows.
+struct PixelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+// What the lists of a buffer came to.
+struct ListCounts {
+    std::uint32_t tiles = 0;    // with a pixel that light may reach
+    std::uint32_t parts = 0;    // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
+    std::uint32_t nodes = 0;
+    std::uint32_t lists = 0;    // texels that are not empty
+    std::uint32_t longest = 0;  // nodes in one texel
+};
+
+struct StorageSize {
+    std::size_t scalars = 0;
+    std::size_t words = 0;
+};
+
+// The two arrays of a buffer, at least as long as storage_for says.
+template <class T>
+struct Storage {
+    T* scalars = nullptr;
+    std::uint32_t* words = nullptr;
+    StorageSize size;
+};
+
+// A picture's part as the light sees it. Everything is indexed with 32 bits and laid out in arrays of one kind, so that
+// it can be handed to a GPU as it is.
+template <class T>
+struct IrregularBuffer {
+    PixelFrame<T> frame;
+    PixelLight<T> light;
+    PixelRect rect;
+    Vec4<T> row[4];             // texel x, texel y, depth and w of a point, from its place relative to the eye
+    T texel_error = T(0);       // what rounding may add to a texel coordinate times w, for each metre from the eye
+    T texel_error_here = T(0);  // and whatever the distance
+    T depth_error = T(0);
+    T depth_error_here = T(0);
+    T contact_reach = T(0);     // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
+    T contact_ray = T(0);
+    int tiles_across = 0;
+    int tile_count = 0;
+    int map_size = 0;
+    int level_count = 0;
+    int cells_across = 0;
+    std::uint32_t texels_before[most_levels]{};  // of the finer levels
+    std::uint32_t levels_used = 0;               // bit l: level l has a node
+
+    // Tiles: sixteen pixels each, four rows of four.
+    T* quad = nullptr;               // q, q_x, q_y: three times sixteen
+    std::uint32_t* mask = nullptr;   // sixteen
+    std::uint32_t* state = nullptr;  // bit k: light may reach pixel k, and a sample of it is not yet covered; and one
+                                     // more than the index of the triangle that was tested last
+
+    // Nodes, sorted by texel: bounds in texels of the finest level, the far end of the depths, the tile.
+    T* lo_x = nullptr;
+    T* hi_x = nullptr;
+    T* lo_y = nullptr;
+    T* hi_y = nullptr;
+    T* depth = nullptr;
+    std::uint32_t* tile = nullptr;
+    std::uint32_t* first = nullptr;  // node of each texel, all levels end to end; one more at the end
+
+    // Cells, to leave out levels that have nothing there.
+    T* cell_depth = nullptr;               // far end over the nodes that touch the cell
+    std::uint32_t* cell_levels = nullptr;  // bit l: level l has a node there
+
+    // For trace: triangles are put in order of their cells, a block at a time.
+    std::uint32_t* block_cell = nullptr;
+    std::uint32_t* block_order = nullptr;
+    std::uint32_t* block_count = nullptr;
+
+    // Over all nodes.
+    T least_x = T(0), most_x = T(0), least_y = T(0), most_y = T(0), most_depth = T(0), least_w = T(0), most_w = T(0);
+
+    ListCounts counts;
+    Faults faults;
+};
+
+// Texels along a side of the level.
+[[nodiscard]] constexpr int level_size(int map_size, int level) noexcept {
+    return ((map_size - 1) >> level_shift * level) + 1;
+}
+
+inline constexpr int caster_block = 1 << 15;
+
+// What a buffer needs for width x height pixels, a grid of map_size^2 texels and `capacity` parts of tiles. Parts are
+// one and a half times as many as tiles in ordinary pictures and 16 times as many at most: three times as many are
+// taken where capacity is 0. A map_size beyond 2^14 is no grid.
+[[nodiscard]] constexpr StorageSize storage_for(int width, int height, int map_size, int capacity = 0) noexcept {
+    if (width < 1 || height < 1 || map_size < 1 || map_size > 1 << 14) return {};
+    auto const up = [](int size, int step) { return static_cast<std::size_t>((size - 1) / step + 1); };
+    std::size_t const tiles = up(width, tile_side) * up(height, tile_side);
+    std::size_t const parts = capacity > 0 ? static_cast<std::size_t>(capacity) : 3 * tiles;
+    std::size_t texels = 0;
+    for (int level = 0, side = 0; side != 1; ++level) {
+        side = level_size(map_size, level);
+        texels += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    }
+    std::size_t const cells = up(map_size, 1 << cell_shift) * up(map_size, 1 << cell_shift);
+    // Behind each array of nodes sixteen more can be read.
+    std::size_t const nodes = 4 * parts + lane_count;
+    return {3 * lane_count * tiles + 5 * nodes + 5 * parts + cells,
+            (lane_count + 2) * tiles + nodes + 3 * parts + texels + 2 + 2 * cells + 2 + 2 * caster_block};
+}
+
+namespace detail {
+
+[[nodiscard]] inline int lowest_bit(std::uint32_t bits) noexcept {
+#if defined(__GNUC__)
+    return __builtin_ctz(bits);
+#else
+    int place = 0;
+    while ((bits >> place & 1u) == 0) ++place;
+    return place;
+#endif
+}
+
+// The parts of a buffer that only its making sees.
+template <class T>
+struct Parts {
+    T* bounds = nullptr;             // lo x, hi x, lo y, hi y, depth of each
+    std::uint32_t* place = nullptr;  // tile; texel x and y, 16 bits each; level, and whether it reaches x + 1 and y + 1
+    std::uint32_t capacity = 0;
+};
+
+struct TexelRange {
+    int x0, x1, y0, y1;
+};
+
+// What lies beside the map belongs to its border.
+template <class T>
+[[nodiscard]] inline int texel_of(T coordinate, T last) noexcept {
+    // Written so that NaN ends at 0.
+    T const inside = coordinate > T(0) ? coordinate : T(0);
+    return static_cast<int>(inside < last ? inside : last);
+}
+
+template <class T>
+[[nodiscard]] inline TexelRange texels_of(T const* bounds, int map_size) noexcept {
+    T const last = T(map_size - 1);
+    return {texel_of(bounds[0], last), texel_of(bounds[1], last), texel_of(bounds[2], last), texel_of(bounds[3], last)};
+}
+
+[[nodiscard]] inline TexelRange coarser(TexelRange const& range, int shift) noexcept {
+    return {range.x0 >> shift, range.x1 >> shift, range.y0 >> shift, range.y1 >> shift};
+}
+
+template <class T>
+inline void add_part(IrregularBuffer<T>& buffer, Parts<T> const& parts, int tile, T const (&bounds)[5]) noexcept {
+    std::uint32_t const index = buffer.counts.parts++;
+    if (index >= parts.capacity) return;
+    T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
+    T const extent = width > height ? width : height;
+    int level = 0;
+    while (level + 1 < buffer.level_count && extent > T(1 << level_shift * level)) ++level;
+    buffer.levels_used |= 1u << level;
+    TexelRange const finest = texels_of(bounds, buffer.map_size);
+    TexelRange const at = coarser(finest, level_shift * level);
+    // NOTE: a third texel is possible only by rounding of the extent, and then only within the padding of the bounds.
+    std::uint32_t const more_x = at.x1 > at.x0 ? 1u : 0u, more_y = at.y1 > at.y0 ? 1u : 0u;
+    for (std::uint32_t i = 0; i < 5; ++i) parts.bounds[5 * index + i] = bounds[i];
+    std::uint32_t* const place = parts.place + 3 * index;
+    place[0] = static_cast<std::uint32_t>(tile);
+    place[1] = static_cast<std::uint32_t>(at.x0) | static_cast<std::uint32_t>(at.y0) << 16;
+    place[2] = static_cast<std::uint32_t>(level) | more_x << 8 | more_y << 9;
+    int const size = level_size(buffer.map_size, level);
+    std::uint32_t* const count = buffer.first + 2 + buffer.texels_before[level] + at.y0 * size + at.x0;
+    for (std::uint32_t y = 0; y <= more_y; ++y)
+        for (std::uint32_t x = 0; x <= more_x; ++x) ++count[y * static_cast<std::uint32_t>(size) + x];
+    TexelRange const cells = coarser(finest, cell_shift);
+    for (int y = cells.y0; y <= cells.y1; ++y)
+        for (int x = cells.x0; x <= cells.x1; ++x) {
+            int const cell = y * buffer.cells_across + x;
+            buffer.cell_levels[cell] |= 1u << level;
+            buffer.cell_depth[cell] = bounds[4] > buffer.cell_depth[cell] ? bounds[4] : buffer.cell_depth[cell];
+        }
+}
+
+template <class T>
+inline void sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts, std::uint32_t texel_count) noexcept {
+    std::uint32_t* const end = buffer.first + 1;
+    ListCounts& counts = buffer.counts;
+    for (std::uint32_t t = 1; t <= texel_count; ++t) {
+        std::uint32_t const length = end[t];
+        counts.lists += length > 0 ? 1u : 0u;
+        counts.longest = length > counts.longest ? length : counts.longest;
+        end[t] = counts.nodes += length;
+    }
+    for (std::uint32_t i = 0; i < counts.parts; ++i) {
+        T const* const bounds = parts.bounds + 5 * i;
+        std::uint32_t const* const place = parts.place + 3 * i;
+        std::uint32_t const level = place[2] & 0xffu;
+        auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, static_cast<int>(level)));
+        std::uint32_t* const next = end + buffer.texels_before[level] + (place[1] >> 16) * size + (place[1] & 0xffffu);
+        for (std::uint32_t y = 0; y <= (place[2] >> 9 & 1u); ++y)
+            for (std::uint32_t x = 0; x <= (place[2] >> 8 & 1u); ++x) {
+                std::uint32_t const node = next[y * size + x]++;
+                buffer.lo_x[node] = bounds[0];
+                buffer.hi_x[node] = bounds[1];
+                buffer.lo_y[node] = bounds[2];
+                buffer.hi_y[node] = bounds[3];
+                buffer.depth[node] = bounds[4];
+                buffer.tile[node] = place[0];
+            }
+    }
+}
+
+// Sixteen pixels of the picture: their quads, whether light may reach them, and where the light sees them.
+template <class Lanes, class T = typename Lanes::Scalar>
+struct TileKernel {
+    IrregularBuffer<T>& buffer;
+    Receivers<T> const& receivers;
+    PixelPlane<T> plane[4];  // the rows of the map
+    T w_min;
+    T turn;
+    Lanes column_in_tile, row_in_tile;
+    bool flat, affine;
+
+    struct Seen {
+        std::uint32_t alive = 0;
+        std::uint32_t away = 0;
+        Lanes lo_x, hi_x, lo_y, hi_y, depth, lo_w, hi_w;
+    };
+
+    // The normal's three components and the depth, or the place relative to the eye, into lanes.
+    void gather(int column, int row, T (&into)[6][lane_count]) const noexcept {
+        PixelFrame<T> const& frame = buffer.frame;
+        auto const normal_stride = static_cast<std::size_t>(receivers.normal_stride);
+        auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
+        int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
+        for (int j = 0; j < tile_side; ++j) {
+            std::size_t const pixel = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                                      static_cast<std::size_t>(column);
+            for (int i = 0; i < tile_side; ++i) {
+                std::size_t const at = pixel + static_cast<std::size_t>(i < columns ? i : 0);
+                int const k = j * tile_side + i;
+                T const* const n = receivers.normal + at * normal_stride;
+                into[0][k] = n[0];
+                into[1][k] = n[1];
+                into[2][k] = n[2];
+                if (receivers.position != nullptr) {
+                    T const* const p = receivers.position + at * position_stride;
+                    into[3][k] = p[0] - frame.eye.x;
+                    into[4][k] = p[1] - frame.eye.y;
+                    into[5][k] = p[2] - frame.eye.z;
+                } else {
+                    into[3][k] = receivers.depth[at];
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] static std::uint32_t lanes_inside(int columns, int rows) noexcept {
+        std::uint32_t const in_row = columns < tile_side ? (1u << columns) - 1u : 0xfu;
+        std::uint32_t inside = 0;
+        for (int j = 0; j < tile_side && j < rows; ++j) inside |= in_row << tile_side * j;
+        return inside;
+    }
+
+    void see(int tile, int column, int row, Seen& seen) const noexcept {
+        PixelFrame<T> const& frame = buffer.frame;
+        auto const all = [](T value) { return Lanes::all(value); };
+        T in[6][lane_count];
+        gather(column, row, in);
+        Lanes const zero = all(T(0)), one = all(T(1)), half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min());
+        Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
+        Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
+        Lanes const m[3] = {Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2])};
+        auto const dot = [&all](Vec3<T> const& v, Lanes const (&a)[3]) {
+            return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
+        };
+        Lanes depth = Lanes::load(in[3]);
+        if (receivers.position != nullptr) {
+            Lanes const p[3] = {depth, Lanes::load(in[4]), Lanes::load(in[5])};
+            depth = dot(frame.to_inward, p);
+        }
+        Lanes const nx = dot(frame.across, m), ny = dot(frame.upward, m), nz = dot(frame.inward, m);
+
+        // The quad; see micro_quad, of which these are the lanes.
+        Lanes const toward_middle = flat ? nz : fused(nx, x + half, fused(ny, y + half, nz));
+        Lanes const facing = flat ? zero - nz : toward_middle;
+        Lanes const steep = (absolute(nx) + absolute(ny)) * all(turn);
+        Lanes const divisor = with_sign_of(most(absolute(facing), steep), facing);
+        // A comparison with NaN is false.
+        Lanes const largest_number = all(std::numeric_limits<T>::max());
+        std::uint32_t sound = at_least(absolute(divisor), tiny);
+        if (!flat) sound &= at_least(depth, tiny);
+        Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
+        Lanes const q_x = nx * scale, q_y = ny * scale;
+        Lanes const q = (flat ? depth : divisor * scale) - (q_x + q_y) * half;
+        sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
+        sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
+        seen.alive = seen.away = 0;
+        if (sound == 0) return;
+
+        // Light and eye on the same side?
+        Lanes travel = fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
+        if (!buffer.light.parallel)
+            travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
+        Lanes const under = zero - tiny;
+        std::uint32_t const lit = (at_least(travel, tiny) & at_least(toward_middle, tiny)) |
+                                  (at_least(under, travel) & at_least(under, toward_middle));
+        seen.away = sound & ~lit;
+        sound &= lit;
+        if (sound == 0) return;
+
+        // The four corners as the light sees them. Before an eye of perspective, values are over the depth.
+        Lanes at[4], gain_x[4], gain_y[4];
+        for (int i = 0; i < 4; ++i) {
+            PixelPlane<T> const& p = plane[i];
+            at[i] = fused(all(p.x), x, fused(all(p.y), y, fused(all(p.b), q, all(p.a))));
+            gain_x[i] = fused(all(p.b), q_x, all(p.x));
+            gain_y[i] = fused(all(p.b), q_y, all(p.y));
+        }
+        Lanes steepest = zero;
+        for (int corner = 0; corner < 4; ++corner) {
+            Lanes value[4], q_here = q;
+            for (int i = 0; i < 4; ++i) {
+                value[i] = (corner & 1) != 0 ? at[i] + gain_x[i] : at[i];
+                if ((corner & 2) != 0) value[i] = value[i] + gain_y[i];
+            }
+            if ((corner & 1) != 0) q_here = q_here + q_x;
+            if ((corner & 2) != 0) q_here = q_here + q_y;
+            sound &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
+            Lanes const inverse = reciprocal(chosen(sound, value[3], one));
+            Lanes const tx = value[0] * inverse, ty = value[1] * inverse, tz = value[2] * inverse;
+            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(sound, q_here, one));
+            seen.lo_x = corner == 0 ? tx : least(seen.lo_x, tx);
+            seen.hi_x = corner == 0 ? tx : most(seen.hi_x, tx);
+            seen.lo_y = corner == 0 ? ty : least(seen.lo_y, ty);
+            seen.hi_y = corner == 0 ? ty : most(seen.hi_y, ty);
+            seen.depth = corner == 0 ? tz : most(seen.depth, tz);
+            seen.lo_w = corner == 0 ? w : least(seen.lo_w, w);
+            seen.hi_w = corner == 0 ? w : most(seen.hi_w, w);
+            steepest = most(steepest, inverse);
+        }
+        // What rounding may add, so that no triangle misses a texel.
+        Lanes const ray = all(buffer.contact_ray);
+        Lanes const reach = flat ? all(buffer.contact_reach) + absolute(q) + absolute(q_x) + absolute(q_y) : ray;
+        Lanes const here = flat ? one : absolute(q) + absolute(q_x) + absolute(q_y);
+        auto const error = [&](T each_metre, T anywhere) {
+            return steepest * fused(reach, all(each_metre), here * all(anywhere));
+        };
+        Lanes const pad = error(buffer.texel_error, buffer.texel_error_here) + all(T(1) / T(128));
+        seen.lo_x = seen.lo_x - pad;
+        seen.hi_x = seen.hi_x + pad;
+        seen.lo_y = seen.lo_y - pad;
+        seen.hi_y = seen.hi_y + pad;
+        seen.depth = seen.depth + error(buffer.depth_error, buffer.depth_error_here);
+        Lanes const span = absolute(seen.lo_x) + absolute(seen.hi_x) + absolute(seen.lo_y) + absolute(seen.hi_y);
+        seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
+
+        T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+        chosen(seen.alive, q, zero).store(quads);
+        chosen(seen.alive, q_x, zero).store(quads + lane_count);
+        chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
+    }
+
+    // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across) const noexcept {
+        if (part == 0) return;
+        Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
+        Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
+        T const bounds[5] = {smallest(chosen(part, seen.lo_x, huge)), largest(chosen(part, seen.hi_x, low)),
+                             smallest(chosen(part, seen.lo_y, huge)), largest(chosen(part, seen.hi_y, low)),
+                             largest(chosen(part, seen.depth, low))};
+        if (pixels_across > 1) {
+            T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
+            T const extent = width > height ? width : height;
+            if (extent > T(1)) {
+                Lanes const each = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
+                if (extent > largest(chosen(part, each, low)) * T(2 * pixels_across)) {
+                    if (pixels_across == tile_side)
+                        for (std::uint32_t const quarter : {0x0033u, 0x00ccu, 0x3300u, 0xcc00u})
+                            insert(parts, tile, seen, part & quarter, 2);
+                    else
+                        for (; part != 0; part &= part - 1) insert(parts, tile, seen, part & (~part + 1), 1);
+                    return;
+                }
+            }
+        }
+        IrregularBuffer<T>& b = buffer;
+        b.least_x = bounds[0] < b.least_x ? bounds[0] : b.least_x;
+        b.most_x = bounds[1] > b.most_x ? bounds[1] : b.most_x;
+        b.least_y = bounds[2] < b.least_y ? bounds[2] : b.least_y;
+        b.most_y = bounds[3] > b.most_y ? bounds[3] : b.most_y;
+        b.most_depth = bounds[4] > b.most_depth ? bounds[4] : b.most_depth;
+        add_part(buffer, parts, tile, bounds);
+    }
+};
+
+// The map's rows for points relative to the eye, x and y in texels; and what rounding may add to them.
+template <class T>
+inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<T> const& light) noexcept {
+    if (!all_finite(map.clip_from_world) || !all_finite(&map.w_min, 1)) return false;
+    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
+    Vec4<T> const source = homogeneous(light);
+    T scale[4];
+    for (int i = 0; i < 4; ++i) {
+        Vec4<T> const r = row(canonical, i);
+        scale[i] = std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+    }
+    // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
+    Vec4<T> const image = canonical * source;
+    T const slack = T(256) * std::numeric_limits<T>::epsilon();
+    for (int i : {0, 1, 3})
+        if (!(std::abs(image[i]) <= slack * (scale[i] + scale[3]))) return false;
+    if (!(image.z > T(0))) return false;
+
+    T const texels = T(buffer.map_size) / T(2);
+    Vec4<T> const w = row(canonical, 3);
+    Vec4<T> const rows[4] = {(row(canonical, 0) + w) * texels, (row(canonical, 1) + w) * texels, row(canonical, 2), w};
+    // A coordinate is a sum of four products, and the quotient of two such sums.
+    T const eps = T(16) * std::numeric_limits<T>::epsilon();
+    T steep[4], here[4];
+    for (int i = 0; i < 4; ++i) {
+        Vec3<T> const axis(rows[i]);
+        buffer.row[i] = Vec4<T>(axis, glm::dot(axis, buffer.frame.eye) + rows[i].w);
+        if (!all_finite(buffer.row[i])) return false;
+        steep[i] = eps * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+        here[i] = eps * std::abs(buffer.row[i].w);
+    }
+    buffer.texel_error = (steep[0] > steep[1] ? steep[0] : steep[1]) + steep[3] * T(buffer.map_size);
+    buffer.texel_error_here = (here[0] > here[1] ? here[0] : here[1]) + here[3] * T(buffer.map_size);
+    buffer.depth_error = steep[2] + steep[3];
+    buffer.depth_error_here = here[2] + here[3];
+    return true;
+}
+
+template <class T>
+[[nodiscard]] inline PixelPlane<T> plane_of_row(PixelFrame<T> const& frame, Vec4<T> const& row) noexcept {
+    Vec3<T> const axis(row);
+    T const offset = row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
+    return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
+}
+
+// What tracing needs of the picture, the light and the grid, before any receiver is seen. False where the grid is not a
+// map of the light.
+template <class T>
+inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowMap<T> const& grid) noexcept {
+    PixelFrame<T> const& frame = buffer.frame;
+    buffer.light = pixel_light(frame, light);
+    buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
+                         glm::length(frame.inward);
+    buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));
+    if (frame.kind == ViewKind::orthographic) {
+        buffer.contact_reach += buffer.contact_ray + glm::length(frame.across) * std::abs(frame.origin.x) +
+                                glm::length(frame.upward) * std::abs(frame.origin.y);
+        buffer.contact_ray = T(1);
+    }
+    return take_map(buffer, grid, light);
+}
+
+// The arrays of a buffer, cut from what the caller gave. No capacity where not even the tiles fit.
+template <class T>
+[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage, std::uint32_t texel_count) noexcept {
+    Parts<T> parts;
+    // What one part more adds: one of its own and four nodes of each array.
+    StorageSize const least = storage_for(buffer.rect.width, buffer.rect.height, buffer.map_size, 1);
+    if (storage.scalars == nullptr || storage.words == nullptr || storage.size.scalars < least.scalars ||
+        storage.size.words < least.words)
+        return parts;
+    std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
+    std::size_t const by_words = (storage.size.words - least.words) / 7;
+    std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
+    // Nodes are counted with 32 bits.
+    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 29 ? capacity : 1u << 29);
+    auto const tiles = static_cast<std::size_t>(buffer.tile_count);
+    auto const cells = static_cast<std::size_t>(buffer.cells_across) * static_cast<std::size_t>(buffer.cells_across);
+    std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
+    T* scalars = storage.scalars;
+    std::uint32_t* words = storage.words;
+    auto const take = [](auto*& from, std::size_t count) {
+        auto* const taken = from;
+        from += count;
+        return taken;
+    };
+    buffer.quad = take(scalars, 3 * lane_count * tiles);
+    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
+    buffer.cell_depth = take(scalars, cells);
+    parts.bounds = scalars;
+    buffer.mask = take(words, lane_count * tiles);
+    buffer.state = take(words, 2 * tiles);
+    buffer.first = take(words, texel_count + 2);
+    buffer.tile = take(words, nodes);
+    buffer.cell_levels = take(words, cells);
+    buffer.block_count = take(words, cells + 2);
+    buffer.block_cell = take(words, caster_block);
+    buffer.block_order = take(words, caster_block);
+    parts.place = words;
+    std::memset(buffer.first, 0, (texel_count + 2) * sizeof(std::uint32_t));
+    std::memset(buffer.cell_levels, 0, cells * sizeof(std::uint32_t));
+    for (std::size_t cell = 0; cell < cells; ++cell) buffer.cell_depth[cell] = std::numeric_limits<T>::lowest();
+    return parts;
+}
+
+}  // namespace detail
+
+// Lists what the light may reach of a part of the picture. Pixels that the map does not hold, for its w_min or behind
+// it, stay lit; the rest of its frame does not matter. Those that face away from the light are dark in all samples.
+//
+// Faults leave everything lit: not_finite, zero_light, those of the view, bad_projection where the matrix is not a map
+// of this light, map_too_small for a grid outside [1, 2^14], bad_region, and storage_too_small, where counts.parts says
+// what capacity would do.
+template <class T, class Lanes = BestLanes<T>>
+[[nodiscard]] inline IrregularBuffer<T> list_receivers(PixelFrame<T> const& frame, Receivers<T> const& receivers,
+                                                       Light<T> const& light, ShadowMap<T> const& grid, int map_size,
+                                                       Storage<T> const& storage, PixelRect rect = {}) noexcept {
+    SHADOWMATH_ASSERT(receivers.normal != nullptr && (receivers.position != nullptr || receivers.depth != nullptr),
+                      "receivers need a normal, and a position or a depth");
+    IrregularBuffer<T> buffer;
+    buffer.frame = frame;
+    buffer.faults = frame.faults | faults_of(light);
+    buffer.map_size = map_size;
+    if (rect.width < 1) rect.width = frame.width - rect.x;
+    if (rect.height < 1) rect.height = frame.height - rect.y;
+    bool const inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+                        rect.x <= frame.width - rect.width && rect.y <= frame.height - rect.height;
+    if (map_size < 1 || map_size > 1 << 14) buffer.faults |= Fault::map_too_small;
+    if (!inside) buffer.faults |= Fault::bad_region;
+    if (inside) buffer.rect = rect;
+    if (frame.faults.any() || unusable(light) || !inside || buffer.faults.has(Fault::map_too_small)) return buffer;
+    if (!detail::take_view(buffer, light, grid)) {
+        buffer.faults |= Fault::bad_projection;
+        return buffer;
+    }
+    bool const flat = frame.kind == ViewKind::orthographic;
+    buffer.tiles_across = (rect.width - 1) / tile_side + 1;
+    buffer.tile_count = buffer.tiles_across * ((rect.height - 1) / tile_side + 1);
+    buffer.cells_across = ((map_size - 1) >> cell_shift) + 1;
+    std::uint32_t texel_count = 0;
+    for (int side = 0; side != 1;) {
+        side = level_size(map_size, buffer.level_count);
+        buffer.texels_before[buffer.level_count++] = texel_count;
+        texel_count += static_cast<std::uint32_t>(side) * static_cast<std::uint32_t>(side);
+    }
+    detail::Parts<T> const parts = detail::lay_out(buffer, storage, texel_count);
+    if (parts.capacity == 0) {
+        buffer.faults |= Fault::storage_too_small;
+        buffer.tile_count = 0;
+        return buffer;
+    }
+    T const largest_number = std::numeric_limits<T>::max();
+    buffer.least_x = buffer.least_y = largest_number;
+    buffer.most_x = buffer.most_y = buffer.most_depth = -largest_number;
+
+    T columns[lane_count], rows[lane_count];
+    for (int k = 0; k < lane_count; ++k) {
+        columns[k] = T(k % tile_side);
+        rows[k] = T(k / tile_side);
+    }
+    Vec4<T> const* const row = buffer.row;
+    detail::TileKernel<Lanes> const kernel{
+        buffer,
+        receivers,
+        {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]), detail::plane_of_row(frame, row[2]),
+         detail::plane_of_row(frame, row[3])},
+        grid.w_min > T(0) ? grid.w_min : T(0),
+        detail::turn_limit(frame),
+        Lanes::load(columns),
+        Lanes::load(rows),
+        flat,
+        Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
+    Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);
+    Lanes least_w = huge, most_w = low;
+    typename detail::TileKernel<Lanes>::Seen seen;
+    for (int tile = 0; tile < buffer.tile_count; ++tile) {
+        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side, rect.y + tile / buffer.tiles_across * tile_side, seen);
+        std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
+        for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
+        buffer.state[2 * tile] = seen.alive;
+        buffer.state[2 * tile + 1] = 0;
+        if (seen.alive == 0) continue;
+        ++buffer.counts.tiles;
+        least_w = least(least_w, chosen(seen.alive, seen.lo_w, huge));
+        most_w = most(most_w, chosen(seen.alive, seen.hi_w, low));
+        kernel.insert(parts, tile, seen, seen.alive, tile_side);
+    }
+    buffer.least_w = smallest(least_w);
+    buffer.most_w = largest(most_w);
+    if (buffer.counts.parts > parts.capacity) {
+        buffer.faults |= Fault::storage_too_small;
+        buffer.tile_count = 0;
+        buffer.levels_used = 0;
+        return buffer;
+    }
+    detail::sort_parts(buffer, parts, texel_count);
+    return buffer;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/trace.hpp ========
+//
+// Exact hard shadows: every triangle against the pixels whose light it may take, 32 samples each. No resolution, no
+// bias, no filter: a sample is dark when the segment from it to the light meets a triangle.
+//
+//   storage                    arrays of the caller's, storage_for(...) long
+//   list_receivers(...)        once for a picture, or for each part of it
+//   trace(buffer, casters)     in any order, any number of times; parts can run on threads of their own
+//   write_masks(buffer, out)   one word a pixel: bit i is set where sample i is dark
+//
+// Use it where shadows must be right to the pixel; on a CPU it is faster than ray tracing as long as every pixel is
+// wanted. For a few points, or soft shadows, trace rays instead.
+//
+// Source: Wyman, Hoetzlein and Lefohn, TVCG 22(10) 2016. Departures: tiles of 4 x 4 pixels are tested at once, against
+// all four planes before any sample; triangles are clipped only to find their texels.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Triangles: three indices each, or three vertices each where there are none.
+template <class T>
+struct Casters {
+    T const* position = nullptr;  // world; three scalars a vertex, `stride` apart
+    int stride = 3;
+    std::uint32_t vertex_count = 0;
+    std::uint32_t const* index = nullptr;
+    std::uint32_t triangle_count = 0;
+};
+
+// The surface of a receiver is trusted to one part in 2^20 of the coordinates: what a G-buffer in float is worth.
+template <class T>
+inline constexpr T contact_share = T(1) / T(1 << 20);
+
+namespace detail {
+
+// Vertices beyond are no scene; below, products of three of them stay within a float.
+template <class T>
+inline constexpr T farthest_vertex = T(1e9);
+
+template <class Lanes, class T = typename Lanes::Scalar>
+struct TraceKernel {
+    IrregularBuffer<T>& buffer;
+    Casters<T> const& casters;
+    Lanes column_in_tile, row_in_tile;
+    T w_floor;
+
+    // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
+    struct Batch {
+        std::uint32_t sound;              // bit k: triangle k may take light from a receiver
+        T vertex[3][3][lane_count];       // relative to the eye
+        T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
+        T depth[lane_count];              // the end nearest to the light
+        T plane[4][4][lane_count];
+        Lanes reach;                      // metres from the eye, at most
+    };
+
+    // One triangle against sixteen pixels.
+    void test(std::uint32_t tile, Batch const& batch, int k) const noexcept {
+        std::uint32_t const alive = buffer.state[2 * tile];
+        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
+        auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
+        T const x = T(static_cast<int>(tile % tiles_across) * tile_side + buffer.rect.x) - T(buffer.frame.width) / T(2);
+        T const y = T(static_cast<int>(tile / tiles_across) * tile_side + buffer.rect.y) - T(buffer.frame.height) / T(2);
+        Lanes const zero = Lanes::all(T(0));
+        Lanes c[4], gain_x[4], gain_y[4];
+        std::uint32_t touched = alive, covered = alive;
+        for (int i = 0; i < 4; ++i) {
+            T const px = batch.plane[i][0][k], py = batch.plane[i][1][k], pa = batch.plane[i][2][k];
+            Lanes const xs = Lanes::all(px), ys = Lanes::all(py), bs = Lanes::all(batch.plane[i][3][k]);
+            c[i] = fused(bs, q, fused(ys, row_in_tile, fused(xs, column_in_tile, Lanes::all(px * x + py * y + pa))));
+            gain_x[i] = fused(bs, q_x, xs);
+            gain_y[i] = fused(bs, q_y, ys);
+            // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
+            touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
+            if (touched == 0) return;
+            covered &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
+        }
+        std::uint32_t* const masks = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
+        std::uint32_t done = covered & touched;
+        for (std::uint32_t bits = done; bits != 0; bits &= bits - 1) masks[lowest_bit(bits)] = every_sample;
+        std::uint32_t crossed = touched & ~covered;
+        if (crossed != 0) {
+            T lines[4][3][lane_count];
+            for (int i = 0; i < 4; ++i) {
+                c[i].store(lines[i][0]);
+                gain_x[i].store(lines[i][1]);
+                gain_y[i].store(lines[i][2]);
+            }
+            for (; crossed != 0; crossed &= crossed - 1) {
+                int const pixel = lowest_bit(crossed);
+                std::uint32_t dark = every_sample;
+                for (auto const& line : lines)
+                    dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][pixel], line[1][pixel], line[2][pixel]});
+                masks[pixel] |= dark;
+                if (masks[pixel] == every_sample) done |= 1u << pixel;
+            }
+        }
+        buffer.state[2 * tile] = alive & ~done;
+    }
+
+    // The levels that have a node which triangle k may touch; texels of the finest level.
+    [[nodiscard]] std::uint32_t levels_at(TexelRange const& texels, T depth) const noexcept {
+        TexelRange const cells = coarser(texels, cell_shift);
+        if (cells.x1 - cells.x0 > 2 || cells.y1 - cells.y0 > 2) return buffer.levels_used;
+        std::uint32_t levels = 0;
+        for (int y = cells.y0; y <= cells.y1; ++y)
+            for (int x = cells.x0; x <= cells.x1; ++x) {
+                int const cell = y * buffer.cells_across + x;
+                levels |= buffer.cell_depth[cell] >= depth ? buffer.cell_levels[cell] : 0u;
+            }
+        return levels;
+    }
+
+    [[nodiscard]] TexelRange texels_of_triangle(Batch const& batch, int k) const noexcept {
+        T const bounds[4] = {batch.bounds[0][k], batch.bounds[1][k], batch.bounds[2][k], batch.bounds[3][k]};
+        return texels_of(bounds, buffer.map_size);
+    }
+
+    // One triangle against the lists of the texels that it may cover.
+    void walk(Batch const& batch, int k, std::uint32_t stamp) const noexcept {
+        Lanes const lo_x = Lanes::all(batch.bounds[0][k]), hi_x = Lanes::all(batch.bounds[1][k]);
+        Lanes const lo_y = Lanes::all(batch.bounds[2][k]), hi_y = Lanes::all(batch.bounds[3][k]);
+        Lanes const depth = Lanes::all(batch.depth[k]);
+        TexelRange const finest = texels_of_triangle(batch, k);
+        for (std::uint32_t levels = levels_at(finest, batch.depth[k]); levels != 0; levels &= levels - 1) {
+            int const level = lowest_bit(levels);
+            auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, level));
+            TexelRange const range = coarser(finest, level_shift * level);
+            std::uint32_t const* first = buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(range.y0) * size;
+            for (int y = range.y0; y <= range.y1; ++y, first += size) {
+                std::uint32_t const end = first[range.x1 + 1];
+                for (std::uint32_t node = first[range.x0]; node < end; node += lane_count) {
+                    std::uint32_t hit = at_least(hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), lo_x) &
+                                        at_least(hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), lo_y) &
+                                        at_least(Lanes::load(buffer.depth + node), depth);
+                    if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
+                    for (; hit != 0; hit &= hit - 1) {
+                        std::uint32_t const at = node + static_cast<std::uint32_t>(lowest_bit(hit));
+                        std::uint32_t const tile = buffer.tile[at];
+                        std::uint32_t* const state = buffer.state + 2 * tile;
+                        if (state[1] == stamp) continue;
+                        state[1] = stamp;
+                        if (state[0] == 0)
+                            buffer.depth[at] = std::numeric_limits<T>::lowest();  // full: off the list
+                        else
+                            test(tile, batch, k);
+                    }
+                }
+            }
+        }
+    }
+
+    // The bounds of the part of a triangle at w >= w_floor: no receiver is in the shadow of the rest.
+    [[nodiscard]] bool clip(T const (&at)[3][4], T (&bounds)[4]) const noexcept {
+        T const largest_number = std::numeric_limits<T>::max();
+        bounds[0] = bounds[2] = largest_number;
+        bounds[1] = bounds[3] = -largest_number;
+        auto const add = [&bounds](T x, T y) {
+            bounds[0] = x < bounds[0] ? x : bounds[0];
+            bounds[1] = x > bounds[1] ? x : bounds[1];
+            bounds[2] = y < bounds[2] ? y : bounds[2];
+            bounds[3] = y > bounds[3] ? y : bounds[3];
+        };
+        bool any = false;
+        for (int i = 0; i < 3; ++i) {
+            T const *const a = at[i], *const b = at[(i + 1) % 3];
+            T const above = a[3] - w_floor, other = b[3] - w_floor;
+            if (above >= T(0)) {
+                add(a[0] / a[3], a[1] / a[3]);
+                any = true;
+            }
+            if ((above >= T(0)) == (other >= T(0))) continue;
+            T const t = above / (above - other);
+            add((a[0] + (b[0] - a[0]) * t) / w_floor, (a[1] + (b[1] - a[1]) * t) / w_floor);
+        }
+        return any;
+    }
+
+    // `order` gives the triangles, or they follow each other from `begin` on.
+    void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
+        Vec3<T> const& eye = buffer.frame.eye;
+        batch.sound = 0;
+        for (std::uint32_t k = 0; k < lane_count; ++k) {
+            bool ok = k < count;
+            std::size_t const triangle = !ok ? 0 : order != nullptr ? order[begin + k] : begin + k;
+            for (std::uint32_t i = 0; i < 3; ++i) {
+                std::size_t vertex = 3 * triangle + i;
+                if (casters.index != nullptr) vertex = casters.index[vertex];
+                ok = ok && vertex < casters.vertex_count;
+                T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
+                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis] - eye[axis];
+            }
+            batch.sound |= (ok ? 1u : 0u) << k;
+        }
+        find(batch);
+    }
+
+    // Bounds in the grid, and which of the sixteen reach a receiver's.
+    void find(Batch& batch) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        Lanes const largest_number = all(std::numeric_limits<T>::max()), lowest_number = all(std::numeric_limits<T>::lowest());
+        Lanes at[3][4];
+        Lanes least_w = largest_number, most_w = lowest_number;
+        std::uint32_t sound = batch.sound;
+        batch.reach = all(T(0));
+        for (int i = 0; i < 3; ++i) {
+            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]), z = Lanes::load(batch.vertex[i][2]);
+            Lanes const away = absolute(x) + absolute(y) + absolute(z);
+            sound &= at_least(all(farthest_vertex<T>), away);
+            batch.reach = most(batch.reach, away);
+            for (int r = 0; r < 4; ++r) {
+                Vec4<T> const& row = buffer.row[r];
+                at[i][r] = fused(all(row.x), x, fused(all(row.y), y, fused(all(row.z), z, all(row.w))));
+            }
+            least_w = least(least_w, at[i][3]);
+            most_w = most(most_w, at[i][3]);
+        }
+        Lanes const floor = all(w_floor);
+        sound &= at_least(most_w, floor);
+        Lanes lo_x = largest_number, hi_x = lowest_number, lo_y = lo_x, hi_y = hi_x, depth = lo_x;
+        for (int i = 0; i < 3; ++i) {
+            Lanes const inverse = reciprocal(most(at[i][3], floor));
+            Lanes const x = at[i][0] * inverse, y = at[i][1] * inverse;
+            lo_x = least(lo_x, x);
+            hi_x = most(hi_x, x);
+            lo_y = least(lo_y, y);
+            hi_y = most(hi_y, y);
+            depth = least(depth, at[i][2] * inverse);
+        }
+        std::uint32_t crossing = sound & ~at_least(least_w, floor);
+        if (crossing != 0) {
+            // A few triangles in a warped map, and those beside a lamp. Their depths would have to be clipped as well.
+            T rows[3][4][lane_count], clipped[4][lane_count];
+            for (int i = 0; i < 3; ++i)
+                for (int r = 0; r < 4; ++r) at[i][r].store(rows[i][r]);
+            depth = chosen(crossing, lowest_number, depth);
+            lo_x.store(clipped[0]);
+            hi_x.store(clipped[1]);
+            lo_y.store(clipped[2]);
+            hi_y.store(clipped[3]);
+            for (; crossing != 0; crossing &= crossing - 1) {
+                int const k = lowest_bit(crossing);
+                T one[3][4], bounds[4];
+                for (int i = 0; i < 3; ++i)
+                    for (int r = 0; r < 4; ++r) one[i][r] = rows[i][r][k];
+                if (!clip(one, bounds)) sound &= ~(1u << k);
+                for (int i = 0; i < 4; ++i) clipped[i][k] = bounds[i];
+            }
+            lo_x = Lanes::load(clipped[0]);
+            hi_x = Lanes::load(clipped[1]);
+            lo_y = Lanes::load(clipped[2]);
+            hi_y = Lanes::load(clipped[3]);
+        }
+        // What rounding may add, so that no texel is missed.
+        Lanes const steepest = reciprocal(most(least_w, floor));
+        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
+        lo_x = lo_x - pad;
+        hi_x = hi_x + pad;
+        lo_y = lo_y - pad;
+        hi_y = hi_y + pad;
+        depth = depth - steepest * fused(batch.reach, all(buffer.depth_error), all(buffer.depth_error_here));
+        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) & at_least(all(buffer.most_y), lo_y) &
+                 at_least(hi_y, all(buffer.least_y)) & at_least(all(buffer.most_depth), depth);
+        lo_x.store(batch.bounds[0]);
+        hi_x.store(batch.bounds[1]);
+        lo_y.store(batch.bounds[2]);
+        hi_y.store(batch.bounds[3]);
+        depth.store(batch.depth);
+        batch.sound = sound;
+    }
+
+    void raise_volumes(Batch& batch) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        PixelFrame<T> const& frame = buffer.frame;
+        Triple<Lanes> p[3];
+        for (int i = 0; i < 3; ++i) {
+            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]), Lanes::load(batch.vertex[i][2])};
+            auto const along = [&](Vec3<T> const& axis) { return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v); };
+            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
+        }
+        Lanes const metres = all(contact_share<T>) * (batch.reach + all(T(1) + buffer.contact_reach));
+        ShadowVolume<Lanes> const volume =
+            volume_of(frame, buffer.light, p, metres, contact_share<T> * buffer.contact_ray, all);
+        for (int i = 0; i < 4; ++i) {
+            volume.planes[i].x.store(batch.plane[i][0]);
+            volume.planes[i].y.store(batch.plane[i][1]);
+            volume.planes[i].a.store(batch.plane[i][2]);
+            volume.planes[i].b.store(batch.plane[i][3]);
+        }
+        batch.sound &= at_least(absolute(volume.along), all(std::numeric_limits<T>::min()));
+    }
+
+    // At most caster_block triangles, in the order of the cells that they lie in: what is next to each other in the
+    // grid is then in the caches, however the mesh was laid out.
+    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch) const noexcept {
+        auto const cells = static_cast<std::uint32_t>(buffer.cells_across * buffer.cells_across);
+        std::uint32_t const nowhere_to_be = cells;
+        std::uint32_t* const start = buffer.block_count;
+        std::memset(start, 0, (cells + 2) * sizeof(std::uint32_t));
+        for (std::uint32_t i = 0; i < count; i += lane_count) {
+            load(begin + i, count - i, nullptr, batch);
+            for (std::uint32_t k = 0; k < lane_count && i + k < count; ++k) {
+                std::uint32_t cell = nowhere_to_be;
+                if ((batch.sound >> k & 1u) != 0) {
+                    TexelRange const texels = texels_of_triangle(batch, static_cast<int>(k));
+                    TexelRange const at = coarser(texels, cell_shift);
+                    if (levels_at(texels, batch.depth[k]) != 0) {
+                        cell = static_cast<std::uint32_t>(at.y0 * buffer.cells_across + at.x0);
+                        ++start[cell + 1];
+                    }
+                }
+                buffer.block_cell[i + k] = cell;
+            }
+        }
+        for (std::uint32_t cell = 0; cell < cells; ++cell) start[cell + 1] += start[cell];
+        std::uint32_t const kept = start[cells];
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (buffer.block_cell[i] != nowhere_to_be) buffer.block_order[start[buffer.block_cell[i]]++] = begin + i;
+        for (std::uint32_t i = 0; i < kept; i += lane_count) {
+            load(i, kept - i, buffer.block_order, batch);
+            raise_volumes(batch);
+            for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
+                int const k = lowest_bit(bits);
+                walk(batch, k, buffer.block_order[i + static_cast<std::uint32_t>(k)] + 1u);
+            }
+        }
+    }
+};
+
+}  // namespace detail
+
+// Takes the light of `count` triangles from `first` on out of the buffer's masks; a count of 0 stands for all that
+// follow. The masks that remain do not depend on the order of triangles, on the grid, or on how the work is split.
+// Triangles with an index beyond the vertices, with a vertex that is not finite or farther than 1e9 m cast nothing.
+template <class T, class Lanes = BestLanes<T>>
+inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::uint32_t first = 0,
+                  std::uint32_t count = 0) noexcept {
+    if (buffer.levels_used == 0 || first >= casters.triangle_count || casters.vertex_count == 0) return;
+    SHADOWMATH_ASSERT(casters.position != nullptr, "casters need positions");
+    std::uint32_t const left = casters.triangle_count - first;
+    if (count == 0 || count > left) count = left;
+    T column[lane_count], row[lane_count];
+    for (int k = 0; k < lane_count; ++k) {
+        column[k] = T(k % tile_side);
+        row[k] = T(k / tile_side);
+    }
+    // All along a ray of a sun w is that of the receiver; toward a lamp it falls to 0.
+    T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
+    T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
+    detail::TraceKernel<Lanes> const kernel{buffer, casters, Lanes::load(column), Lanes::load(row), w_floor};
+    typename detail::TraceKernel<Lanes>::Batch batch;
+    for (std::uint32_t done = 0; done < count;) {
+        std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
+        kernel.run_block(first + done, block, batch);
+        done += block;
+    }
+}
+
+// One word for each pixel of the buffer's part of the picture, row by row, `stride` words apart: 0 for sky. A stride of
+// 0 is the width of that part.
+template <class T>
+inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, int stride = 0) noexcept {
+    PixelRect const& rect = buffer.rect;
+    if (stride == 0) stride = rect.width;
+    for (int row = 0; row < rect.height; ++row) {
+        std::uint32_t* const out = masks + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride);
+        if (buffer.tile_count == 0) {
+            std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
+            continue;
+        }
+        std::uint32_t const* in = buffer.mask + static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
+                                  row % tile_side * tile_side;
+        for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
+            int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
+            std::memcpy(out + column, in, static_cast<std::size_t>(columns) * sizeof(std::uint32_t));
+        }
+    }
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular.hpp ========
+//
+// Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
+
+
+// ======== shadowmath/irregular/gpu.hpp ========
+//
+// What the compute passes of the irregular z-buffer read, as it lies in memory (std140): the members of the block in
+// backends/shaders/irregular_buffers.glsl. Plain numbers: whoever dispatches the passes needs no header of this library.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// sm_PixelFrame of glsl/irregular.glsl
+struct GpuPixelFrame {
+    Vec3<float> eye{0.0f};
+    std::int32_t width = 0;
+    Vec3<float> across{0.0f};
+    std::int32_t height = 0;
+    Vec3<float> upward{0.0f};
+    std::int32_t orthographic = 0;
+    Vec3<float> inward{0.0f};
+    float origin_x = 0.0f;
+    Vec3<float> to_across{0.0f};
+    float origin_y = 0.0f;
+    Vec3<float> to_upward{0.0f};
+    float turn_limit = 1.0f;
+    Vec3<float> to_inward{0.0f};
+    float unused = 0.0f;
+};
+static_assert(offsetof(GpuPixelFrame, width) == 12 && offsetof(GpuPixelFrame, orthographic) == 44);
+static_assert(offsetof(GpuPixelFrame, to_across) == 64 && offsetof(GpuPixelFrame, turn_limit) == 92);
+static_assert(offsetof(GpuPixelFrame, to_inward) == 96 && sizeof(GpuPixelFrame) == 112);
+
+struct GpuIrregular {
+    GpuPixelFrame frame;
+    Vec3<float> light_at{0.0f};
+    std::int32_t parallel = 1;
+    Vec4<float> row[4]{};
+    Vec4<float> seen[4]{};
+    float texel_error = 0.0f;
+    float texel_error_here = 0.0f;
+    float depth_error = 0.0f;
+    float depth_error_here = 0.0f;
+    float ray = 0.0f;
+    float reach = 0.0f;
+    float contact_metres = 0.0f;
+    float contact_share = 0.0f;
+    float w_min = 0.0f;
+    std::int32_t map_size = 0;
+    std::uint32_t triangle_count = 0;  // this and what follows: of whoever dispatches
+    std::uint32_t vertex_count = 0;
+    std::uint32_t node_capacity = 0;
+    std::uint32_t unused[3] = {};
+};
+static_assert(offsetof(GpuIrregular, light_at) == 112 && offsetof(GpuIrregular, parallel) == 124);
+static_assert(offsetof(GpuIrregular, row) == 128 && offsetof(GpuIrregular, seen) == 192);
+static_assert(offsetof(GpuIrregular, texel_error) == 256 && offsetof(GpuIrregular, ray) == 272);
+static_assert(offsetof(GpuIrregular, w_min) == 288 && offsetof(GpuIrregular, node_capacity) == 304);
+static_assert(sizeof(GpuIrregular) == 320);
+
+// Faults leave `gpu` as it was: those of the frame and the light, bad_projection where the grid is not a map of this
+// light, map_too_small for a grid outside [1, 2^14].
+[[nodiscard]] inline Faults gpu_irregular(PixelFrame<float> const& frame, Light<float> const& light,
+                                          ShadowMap<float> const& grid, int map_size, GpuIrregular& gpu) noexcept {
+    IrregularBuffer<float> buffer;
+    buffer.frame = frame;
+    buffer.map_size = map_size;
+    Faults faults = frame.faults | faults_of(light);
+    if (map_size < 1 || map_size > 1 << 14) faults |= Fault::map_too_small;
+    if (faults.any()) return faults;
+    if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
+    GpuIrregular filled;
+    filled.frame = {frame.eye,       frame.width,    frame.across,    frame.height,
+                    frame.upward,    frame.kind == ViewKind::orthographic ? 1 : 0,
+                    frame.inward,    frame.origin.x, frame.to_across, frame.origin.y,
+                    frame.to_upward, detail::turn_limit(frame), frame.to_inward, 0.0f};
+    filled.light_at = buffer.light.at;
+    filled.parallel = buffer.light.parallel ? 1 : 0;
+    for (int i = 0; i < 4; ++i) {
+        PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
+        filled.row[i] = buffer.row[i];
+        filled.seen[i] = Vec4<float>(plane.x, plane.y, plane.a, plane.b);
+    }
+    filled.texel_error = buffer.texel_error;
+    filled.texel_error_here = buffer.texel_error_here;
+    filled.depth_error = buffer.depth_error;
+    filled.depth_error_here = buffer.depth_error_here;
+    filled.ray = buffer.contact_ray;
+    filled.reach = buffer.contact_reach;
+    filled.contact_metres = buffer.contact_reach;
+    filled.contact_share = contact_share<float>;
+    filled.w_min = grid.w_min > 0.0f ? grid.w_min : 0.0f;
+    filled.map_size = map_size;
+    gpu = filled;
+    return {};
 }
 
 }  // namespace v0

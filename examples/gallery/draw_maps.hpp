@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// From a technique's answer to maps on a backend: drawn with its matrices, or fitted on the device and drawn from there.
+// From a technique's answer to maps on a backend: drawn with its matrices, or fitted on the device and drawn from
+// there.
 #pragma once
 
 #include "backends/sdsm_passes.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the compute shaders of a sample-distribution fit are given, laid out as std140 and std430 have it, and what their
-// state looks like: the mirror of glsl/sample_layout.glsl. Nothing of it comes back: the shaders write the maps'
+// What the compute shaders of a sample-distribution fit are given, laid out as std140 and std430 have it, and what
+// their state looks like: the mirror of glsl/sample_layout.glsl. Nothing of it comes back: the shaders write the maps'
 // matrices to a buffer, and the passes that draw and read the maps take them from there.
 //
 //   GpuSampleFit const fit = gpu_sample_fit(camera, camera_clip, light, width, height, casters, splits, options);

@@ -19,8 +19,8 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// Eye depth = (num_scale * stored + num_offset) / (den_scale * stored + den_offset). The default knows no depth: what it
-// gives lies behind the eye.
+// Eye depth = (num_scale * stored + num_offset) / (den_scale * stored + den_offset). The default knows no depth: what
+// it gives lies behind the eye.
 template <class T>
 struct DepthCode {
     T num_scale = T(0);
