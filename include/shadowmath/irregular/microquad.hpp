@@ -29,18 +29,18 @@ inline namespace v0 {
 // The eye's picture, width x height pixels, as a frame of space.
 template <class T>
 struct PixelFrame {
-    Vec3<T> eye{T(0)};                       // world
-    Vec3<T> across{T(1), T(0), T(0)};        // world: one pixel to the right, at depth 1
-    Vec3<T> upward{T(0), T(1), T(0)};        // one row on
-    Vec3<T> inward{T(0), T(0), T(-1)};       // one metre of depth, through the middle of the picture
-    Vec3<T> to_across{T(1), T(0), T(0)};     // rows of the inverse: dotted with point - eye
+    Vec3<T> eye{T(0)};                    // world
+    Vec3<T> across{T(1), T(0), T(0)};     // world: one pixel to the right, at depth 1
+    Vec3<T> upward{T(0), T(1), T(0)};     // one row on
+    Vec3<T> inward{T(0), T(0), T(-1)};    // one metre of depth, through the middle of the picture
+    Vec3<T> to_across{T(1), T(0), T(0)};  // rows of the inverse: dotted with point - eye
     Vec3<T> to_upward{T(0), T(1), T(0)};
     Vec3<T> to_inward{T(0), T(0), T(-1)};
-    Vec2<T> origin{T(0)};                    // orthographic: pixels from the eye's axis to the middle of the picture
+    Vec2<T> origin{T(0)};  // orthographic: pixels from the eye's axis to the middle of the picture
     int width = 0;
     int height = 0;
     ViewKind kind = ViewKind::perspective;
-    Faults faults;                           // of the view; map_too_small for a picture without pixels
+    Faults faults;  // of the view; map_too_small for a picture without pixels
 };
 
 // `rows`: whether rows of the picture count upward (OpenGL's and this library's backends) or downward.
@@ -73,6 +73,28 @@ template <class T>
     frame.to_across -= view.pose.forward * (x_middle / x_step);
     frame.to_upward -= view.pose.forward * (y_middle / y_step);
     return frame;
+}
+
+// The same in another scalar type: the three steps as they are, their inverse anew.
+template <class Real, class T>
+[[nodiscard]] inline PixelFrame<Real> frame_in(PixelFrame<T> const& frame) noexcept {
+    PixelFrame<Real> same;
+    same.eye = Vec3<Real>(frame.eye);
+    same.across = Vec3<Real>(frame.across);
+    same.upward = Vec3<Real>(frame.upward);
+    same.inward = Vec3<Real>(frame.inward);
+    same.origin = Vec2<Real>(frame.origin);
+    same.width = frame.width;
+    same.height = frame.height;
+    same.kind = frame.kind;
+    same.faults = frame.faults;
+    Vec3<Real> const normal = glm::cross(same.across, same.upward);
+    Real const volume = glm::dot(normal, same.inward);
+    if (volume == Real(0)) return same;
+    same.to_across = glm::cross(same.upward, same.inward) / volume;
+    same.to_upward = glm::cross(same.inward, same.across) / volume;
+    same.to_inward = normal / volume;
+    return same;
 }
 
 // A direction, or a point relative to a perspective eye.
