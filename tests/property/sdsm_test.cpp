@@ -194,6 +194,28 @@ TYPED_TEST(SdsmProperty, StillMapsKeepEveryPointInItsPlaceWhileTheirTexelsAreThe
     }));
 }
 
+// Half a texel on either side is what the size of a texel leaves room for.
+TYPED_TEST(SdsmProperty, TheMiddleOfAStillMapIsWithinHalfATexelOfTheMiddleOfItsSamples) {
+    EXPECT_TRUE(rc::check([] {
+        using T = TypeParam;
+        SampledScene<T> const scene = *sampled_scene<T>(T(10));
+        SampleFitOptions<T> options = drawn_options<T>();
+        options.still = true;
+        options.clip = ClipSpace{};
+        auto const [depths, rays, bounds] = sampled(scene, 2, drawn_kind());
+        Cascades<T> const cascades = fit_samples(rays, bounds, everything<T>(), options);
+        for (int i = 0; i < cascades.count; ++i) {
+            if (!cascades.at[i].map.visible || cascades.at[i].map.faults.any()) continue;
+            Vec3<T> const middle = rays.eye + (bounds.box[i].lo + bounds.box[i].hi) * T(0.5);
+            Vec3<T> const world = rays.basis.x * middle.x + rays.basis.y * middle.y + rays.basis.depth * middle.z;
+            Vec4<long double> const at = laws::image_of(cascades.at[i].map.clip_from_world, Vec4<T>(world, T(1)));
+            // In texels; a 64th is what precision_lost allows each of the four roundings on the way.
+            for (int axis = 0; axis < 2; ++axis)
+                RC_ASSERT(std::abs(at[axis]) * options.map_size / 2 <= 0.5L + 1.0L / 16);
+        }
+    }));
+}
+
 TYPED_TEST(SdsmProperty, NoInputMakesANaNAnAllocationOrATrap) {
     EXPECT_TRUE(rc::check([] {
         using T = TypeParam;
