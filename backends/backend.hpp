@@ -13,11 +13,14 @@
 
 #include "backends/image.hpp"
 #include "backends/scene.hpp"
+#include "backends/shaders/shader.hpp"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -57,6 +60,8 @@ struct DepthPass {
     std::span<DepthLayer const> layers;  // 1 to max_maps
     bool depth_clamp = true;             // pancake casters outside [0, 1] in depth instead of clipping them
     DrawWay way = DrawWay::pass_per_map;
+    bool fitted =
+        false;  // the matrices are those of the last fit, which the CPU does not know; the layers' are not read
 };
 
 enum class MapChoice : std::int32_t {
@@ -103,9 +108,30 @@ static_assert(sizeof(MapConstants) == 96 && sizeof(FrameConstants) == 64 + 7 * 1
 struct ScenePass {
     Extent extent;
     FrameConstants frame;  // reads the maps of the last depth pass
+    bool fitted = false;   // the constants of its maps are those of the last fit; the frame's are not read
 
     // For draw_split_by_split alone: the objects that each split shows, and last those beyond; empty: all, every time.
     std::span<std::span<std::uint32_t const> const> shown{};
+};
+
+// One compute pass of a fit.
+struct ComputeStep {
+    shaders::Shader const* shader = nullptr;
+    glm::uvec3 groups{1u};
+};
+
+// Makes the constants of maps on the device: draws the depth that the eye sees, and runs compute shaders on it. Nothing
+// returns: depth and scene passes that are `fitted` take matrices, ranges and biases from where the shaders put them.
+//
+//   binding 0   the uniform block      binding 2   MapConstants[max_maps], which the last step fills
+//   binding 1   state_bytes of storage for the steps' own use
+//   binding 3   the eye's depth: a sampler2DArray of one layer, reversed, cleared to 0
+struct FitPass {
+    Extent extent;                         // of the eye's depth
+    glm::mat4 clip_from_world{1.0f};       // the eye's, reversed: depth 1 at the near end, 0 at the far one
+    std::span<ComputeStep const> steps;    // each sees what those before it wrote; none: the depth is drawn, no more
+    std::span<std::byte const> constants;  // the uniform block of all steps
+    std::size_t state_bytes = 0;
 };
 
 struct Texel4 {
@@ -168,8 +194,14 @@ public:
     // layer 0. The maps are chosen by depth. The way of the pass is of no account.
     virtual DrawWork draw_split_by_split(DepthPass const& maps, ScenePass const& view) = 0;
 
+    virtual DrawWork fit_maps(FitPass const& pass) = 0;  // the eye sees all objects
+
     [[nodiscard]] virtual Image<float> read_depth(int layer) = 0;
     [[nodiscard]] virtual Frame read_frame() = 0;
+
+    // What the last fit looked at, and what it made: for fits on the CPU and for tests. To draw, nothing needs them.
+    [[nodiscard]] virtual Image<float> read_eye_depth() = 0;
+    [[nodiscard]] virtual std::vector<MapConstants> read_fit() = 0;
 
     // Warnings and errors that the driver reported since the last call, one line each; empty when all is well.
     [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;

@@ -5882,6 +5882,12 @@ struct Cover {
     bool complete = false;  // the last one ends within the ratio
 };
 
+template <class T>
+[[nodiscard]] inline T usable_ratio(T const& ratio) noexcept {
+    if (!all_finite(&ratio, 1)) return T(1.05);
+    return ratio < T(1.0001) ? T(1.0001) : (ratio > T(1 << 20) ? T(1 << 20) : ratio);
+}
+
 // A nearer first sample could need ratios beyond 2^20; it joins the first split as it is.
 template <class T>
 [[nodiscard]] inline T first_depth(T lo, T hi) noexcept {
@@ -5930,8 +5936,7 @@ template <class T>
     splits.faults = depths.faults;
     int const most = count < 0 ? 0 : (count > max_splits ? max_splits : count);
     if (most != count) splits.faults |= Fault::count_clamped;
-    T least = all_finite(&least_ratio, 1) ? least_ratio : T(1.05);
-    least = least < T(1.0001) ? T(1.0001) : (least > T(1 << 20) ? T(1 << 20) : least);
+    T const least = detail::usable_ratio(least_ratio);
     if (!all_finite(&least_ratio, 1) || least != least_ratio) splits.faults |= Fault::clamped_option;
     if (depths.counted == 0 || most == 0) return splits;
 
@@ -5967,10 +5972,10 @@ template <class T>
 
 // ======== shadowmath/sdsm.hpp ========
 //
-// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it could
-// see. Indoors, over a plain, down a street they give several times the texels of the best fit to the view volume. Use
-// them when the eye's depth is at hand before the maps are drawn: from a depth prepass, or from the frame before (then
-// widen the boxes by what may have moved).
+// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it
+// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels, where four tight cascades come to 1.5
+// and four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
+// or from the frame before (then widen the boxes by what may have moved).
 //
 //   eye depths ── sample_splits ── boxes of samples ── fit_samples ── one matrix a split
 //   (pass 1: SampleDepths)          (pass 2: SampleBounds)
@@ -6012,6 +6017,14 @@ template <class T>
     return std::ldexp(std::ceil(mantissa * T(16)), exponent - 4);
 }
 
+namespace detail {
+
+// Cosines of faces that the light runs along: they are taken to stop nothing.
+template <class T>
+inline constexpr T least_along = T(1e-4);
+
+}  // namespace detail
+
 // Metres along the light, from the world origin, at which the rays between the sides lo and hi (light space) enter the
 // box: nothing of it lies before. Never later than the truth, and earlier by what the box's faces rise across the
 // sides. Above the far side of the box for rays that pass it by.
@@ -6021,8 +6034,7 @@ template <class T>
     T entry = -detail::farthest_metres<T>;
     for (int k = 0; k < 3; ++k) {
         T const along = basis.depth[k];
-        // Faces that the light runs along stop nothing.
-        if (!(std::abs(along) > T(1e-4))) continue;
+        if (!(std::abs(along) > detail::least_along<T>)) continue;
         // On a ray world coordinate k is across + along * depth.
         T const x0 = basis.x[k] * lo.x, x1 = basis.x[k] * hi.x, y0 = basis.y[k] * lo.y, y1 = basis.y[k] * hi.y;
         T const face = along > T(0) ? box.lo[k] : box.hi[k];
@@ -6070,7 +6082,9 @@ template <class T>
 template <class T>
 inline void fit_samples_of(Cascade<T>& cascade, SampleRays<T> const& rays, Aabb<T> const& box, Aabb<T> const& casters,
                            SampleFitOptions<T> const& options) noexcept {
-    Aabb<T> const body{box.lo + rays.eye, box.hi + rays.eye};
+    // Receivers are drawn by another pass than the depths were: their places agree to some ulp of a float.
+    T const slack = T(0x1p-18) * largest_of(box);
+    Aabb<T> const body{box.lo + rays.eye - slack, box.hi + rays.eye + slack};
     if (!(largest_of(body) <= farthest_metres<T>)) {
         cascade.map.faults |= Fault::precision_lost;
         return;
@@ -6133,6 +6147,60 @@ template <class T>
         cascades.faults |= cascade.map.faults;
     }
     return cascades;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/stored_depth.hpp ========
+//
+// From what a depth buffer holds to eye depth in metres, for a camera drawn with view_volume.hpp's clip_from_world (or
+// any matrix with the same near, far and convention): one multiplication, addition and division, never the inverse of a
+// view-projection.
+//
+// What it is worth: a float buffer with reversed depth keeps eye depth to an ulp or so at any distance. With depth from
+// 0 to 1 the error grows as depth^2 / z_near: 6 mm at 100 m, 0.6 m at 1000 m for z_near = 0.1 m. The shader's twin is
+// glsl/stored_depth.glsl.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Eye depth = (num_scale * stored + num_offset) / (den_scale * stored + den_offset). The default knows no depth: what
+// it gives lies behind the eye.
+template <class T>
+struct DepthCode {
+    T num_scale = T(0);
+    T num_offset = T(-1);
+    T den_scale = T(0);
+    T den_offset = T(1);
+    T sky = T(1);  // the value that the buffer is cleared to
+};
+
+// "Stored" is in [0, 1] in every convention. A view with faults, and an orthographic one without end, give the default.
+template <class T>
+[[nodiscard]] inline DepthCode<T> depth_code(ViewVolume<T> const& view, ClipSpace clip) noexcept {
+    DepthCode<T> code;
+    code.sky = far_depth<T>(clip);
+    bool const endless = is_positive_infinity(&view.z_far);
+    bool const reversed = clip.depth == DepthOrder::one_to_zero;
+    if (faults_of(view).any()) return code;
+    if (view.kind == ViewKind::perspective) {
+        // Depth from the near end is (far - near) / far * (1 - near / z).
+        T const share = endless ? T(1) : (view.z_far - view.z_near) / view.z_far;
+        T const rest = endless ? T(0) : view.z_near / view.z_far;
+        code = {T(0), view.z_near, reversed ? share : -share, reversed ? rest : T(1), code.sky};
+    } else if (!endless) {
+        T const range = view.z_far - view.z_near;
+        code = {reversed ? -range : range, reversed ? view.z_far : view.z_near, T(0), T(1), code.sky};
+    }
+    return code;
+}
+
+// Metres; for the sky a number beyond every depth. NaN gives NaN, which sample reductions leave out.
+template <class T>
+[[nodiscard]] inline T decoded_depth(DepthCode<T> const& code, T const& stored) noexcept {
+    if (stored == code.sky) return std::numeric_limits<T>::max();
+    return (code.num_scale * stored + code.num_offset) / (code.den_scale * stored + code.den_offset);
 }
 
 }  // namespace v0
@@ -7092,6 +7160,129 @@ template <class T>
         gpu.ranges.end[i] = static_cast<float>(cascades.at[i].range.end);
     }
     return gpu;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/gpu_samples.hpp ========
+//
+// What the compute shaders of a sample-distribution fit are given, laid out as std140 and std430 have it, and what
+// their state looks like: the mirror of glsl/sample_layout.glsl. Nothing of it comes back: the shaders write the maps'
+// matrices to a buffer, and the passes that draw and read the maps take them from there.
+//
+//   GpuSampleFit const fit = gpu_sample_fit(camera, camera_clip, light, width, height, casters, splits, options);
+//   upload as the uniform block; run sdsm_begin, sdsm_depths, sdsm_splits, sdsm_bounds, sdsm_maps.
+
+namespace shadowmath {
+inline namespace v0 {
+
+struct GpuSampleFit {
+    Vec4<float> basis_x;      // w: z_near, metres of eye depth
+    Vec4<float> basis_y;      // w: z_far
+    Vec4<float> basis_depth;  // w: least ratio of a split
+    Vec4<float>
+        inverse_along;       // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
+    Vec4<float> eye;         // in light space; w: texels along a side of the map
+    Vec4<float> forward;     // of the eye, in light space; w: margin as a share of the body's extent
+    Vec4<float> right;       // w: 1 / (usable texels - 1), for still maps
+    Vec4<float> up;          // w: what the depth buffer is cleared to
+    Vec4<float> first_step;  // sides at the centre of pixel (0, 0), and from pixel to pixel
+    Vec4<float> casters_lo;  // world
+    Vec4<float> casters_hi;
+    Vec4<float> depth_code;  // numerator's scale and offset, denominator's scale and offset
+    Vec4<float> bias;        // of BiasOptions: flat_texels, texels, steepest, depth_step
+    Mat4<float> clip_from_canonical{1.0f};
+    std::int32_t width = 0;  // pixels
+    std::int32_t height = 0;
+    std::int32_t count = 0;     // splits; 0 where there is nothing to fit
+    std::int32_t adaptive = 0;  // 1: SampleSplits::adaptive
+    std::int32_t orthographic = 0;
+    std::int32_t still = 0;
+    std::int32_t pancake = 0;
+    std::int32_t unused = 0;
+};
+static_assert(offsetof(GpuSampleFit, clip_from_canonical) == 208 && offsetof(GpuSampleFit, width) == 272 &&
+                  offsetof(GpuSampleFit, orthographic) == 288 && sizeof(GpuSampleFit) == 304,
+              "glsl/sample_layout.glsl");
+
+// The shaders' own: bins and boxes as bits that order as the numbers do. For tests, and to size the buffer.
+struct GpuSampleState {
+    std::uint32_t bin_lo[depth_bins];
+    std::uint32_t bin_hi[depth_bins];
+    std::uint32_t counted;
+    std::uint32_t outside;
+    std::uint32_t not_finite;
+    std::int32_t count;                   // splits
+    Vec4<float> range[max_splits];        // metres of eye depth: begin, blend_begin, end
+    std::uint32_t box_lo[max_splits][4];  // light space relative to the eye
+    std::uint32_t box_hi[max_splits][4];
+};
+static_assert(offsetof(GpuSampleState, range) == 4112 && offsetof(GpuSampleState, box_lo) == 4368 &&
+                  sizeof(GpuSampleState) == 4880,
+              "glsl/sample_layout.glsl");
+
+template <class T>
+struct SampleSplitOptions {
+    int count = 4;
+    SampleSplits kind = SampleSplits::adaptive;
+    T least_ratio = T(1.05);
+    T blend = T(0);
+};
+
+// The maps that the shaders make of these are those of sample_splits and fit_samples at T = float, fed with the same
+// samples, to the last bit (as long as no compiler contracts a product and a sum: -ffp-contract=off, `precise`).
+//
+// `camera` and `camera_clip` are what the depth buffer was drawn with; samples from shadow_distance on get no shadow
+// (0: camera.z_far). Inputs with faults give count = 0, and the shaders make no map.
+[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<float> const& camera, ClipSpace camera_clip,
+                                                 float shadow_distance, Light<float> const& light, int width,
+                                                 int height, Aabb<float> const& casters,
+                                                 SampleSplitOptions<float> const& splits,
+                                                 SampleFitOptions<float> const& options,
+                                                 BiasOptions<float> const& bias = {}) noexcept {
+    GpuSampleFit fit;
+    bool const cut = all_finite(&shadow_distance, 1) && shadow_distance > 0.0f;
+    float const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
+    SampleRays<float> const rays = sample_rays(camera, light, width, height);
+    DepthCode<float> const code = depth_code(camera, camera_clip);
+    Faults const faults = faults_of_margin(options.map_size, options.margin_texels);
+    bool const usable = rays.usable && !no_depths(camera.z_near, z_far).faults.any() && all_finite(casters) &&
+                        !is_empty(casters) && !faults.has(Fault::not_finite) && !faults.has(Fault::map_too_small);
+    if (!usable) return fit;
+
+    float const size = static_cast<float>(options.map_size);
+    float const usable_size = usable_texels(options.map_size, options.margin_texels);
+    constexpr float eps = std::numeric_limits<float>::epsilon();
+    Vec4<float> inverse_along(0.0f);
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(rays.basis.depth[k]) > detail::least_along<float>) inverse_along[k] = 1.0f / rays.basis.depth[k];
+    inverse_along.w = splits.blend > 0.0f ? (splits.blend < 1.0f ? splits.blend : 1.0f) : 0.0f;
+    fit.basis_x = Vec4<float>(rays.basis.x, camera.z_near);
+    fit.basis_y = Vec4<float>(rays.basis.y, z_far);
+    fit.basis_depth = Vec4<float>(rays.basis.depth, detail::usable_ratio(splits.least_ratio));
+    fit.inverse_along = inverse_along;
+    fit.eye = Vec4<float>(rays.eye, size);
+    fit.forward = Vec4<float>(rays.forward, options.still ? 0.0f : 0.5f * (size - usable_size) / usable_size);
+    fit.right = Vec4<float>(rays.right, 1.0f / (usable_size - 1.0f) * (1.0f + 4.0f * eps));
+    fit.up = Vec4<float>(rays.up, code.sky);
+    fit.first_step = Vec4<float>(rays.first.x, rays.first.y, rays.step.x, rays.step.y);
+    Vec3<float> const farthest(detail::farthest_metres<float>);
+    Aabb<float> const reached = intersect(casters, Aabb<float>{-farthest, farthest});
+    fit.casters_lo = Vec4<float>(reached.lo, 0.0f);
+    fit.casters_hi = Vec4<float>(reached.hi, 0.0f);
+    fit.depth_code = Vec4<float>(code.num_scale, code.num_offset, code.den_scale, code.den_offset);
+    fit.bias = Vec4<float>(detail::option(bias.flat_texels, 0.0f), detail::option(bias.texels, 0.0f),
+                           detail::option(bias.steepest, 20.0f), detail::option(bias.depth_step, 0.0f));
+    fit.clip_from_canonical = clip_from_canonical<float>(options.clip);
+    fit.width = width;
+    fit.height = height;
+    fit.count = splits.count < 0 ? 0 : (splits.count > max_splits ? max_splits : splits.count);
+    fit.adaptive = splits.kind == SampleSplits::adaptive ? 1 : 0;
+    fit.orthographic = rays.kind == ViewKind::orthographic ? 1 : 0;
+    fit.still = options.still ? 1 : 0;
+    fit.pancake = options.pancake ? 1 : 0;
+    return fit;
 }
 
 }  // namespace v0

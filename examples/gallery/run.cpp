@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/run.hpp"
 
+#include "examples/gallery/draw_maps.hpp"
 #include "examples/gallery/measure.hpp"
 #include "examples/gallery/pictures.hpp"
 #include "examples/gallery/truth.hpp"
@@ -22,15 +23,11 @@ struct Rendered {
 
 // The fastest of the runs is timed: the first one may also compile shaders and allocate.
 Rendered render(backend::Backend& backend, MapSet const& maps, backend::Extent extent, int runs) {
-    std::vector<backend::DepthLayer> layers;
-    for (Map const& map : maps.maps) layers.push_back({glm::mat4(map.clip_from_world), map.casters});
     Rendered rendered;
-    rendered.ms_depth = layers.empty() ? 0.0 : std::numeric_limits<double>::max();
-    rendered.ms_receive = std::numeric_limits<double>::max();
+    rendered.ms_depth = rendered.ms_receive = std::numeric_limits<double>::max();
     for (int i = 0; i < runs; ++i) {
-        if (!layers.empty())
-            rendered.ms_depth = std::min(rendered.ms_depth, backend.draw_depth({maps.map_size, layers}).milliseconds);
-        rendered.ms_receive = std::min(rendered.ms_receive, backend.draw_scene({extent, maps.frame}).milliseconds);
+        rendered.ms_depth = std::min(rendered.ms_depth, draw_maps(backend, maps, extent));
+        rendered.ms_receive = std::min(rendered.ms_receive, draw_picture(backend, maps, extent));
     }
     rendered.frame = backend.read_frame();
     return rendered;
@@ -49,7 +46,7 @@ public:
 
     // One record a backend, each given to `take` as soon as it is there.
     void show(Technique const& technique, std::function<void(Record)> const& take) {
-        MapSet const maps = fit(technique, scene_, view_, settings_.extent);
+        MapSet const maps = fit_on(*backends_.front(), technique, scene_, view_, settings_.extent);
         backend::Image<backend::Rgba8> first_colour;
         for (auto const& backend : backends_) {
             bool const is_first = &backend == &backends_.front();
