@@ -63,7 +63,8 @@ Dispatch IrregularPasses::pass(shaders::Shader const& shader, std::size_t invoca
 }
 
 IrregularWork IrregularPasses::trace(std::span<std::byte const> constants) {
-    if (constants.size() != block_bytes) throw std::runtime_error("the constants of an irregular z-buffer are 320 bytes");
+    if (constants.size() != block_bytes)
+        throw std::runtime_error("the constants of an irregular z-buffer are 320 bytes");
     if (vertex_count_ == 0 && triangle_count_ == 0) set_casters({}, {});
     constants_.assign(constants.begin(), constants.end());
     std::array<std::uint32_t, 3> const counts{triangle_count_, vertex_count_, size_.node_capacity};

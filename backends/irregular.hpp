@@ -20,12 +20,12 @@ namespace shadowmath::backend {
 struct IrregularSize {
     int width = 0;
     int height = 0;
-    int map_size = 0;               // texels along the grid's side
+    int map_size = 0;                 // texels along the grid's side
     std::uint32_t node_capacity = 0;  // 0: four a pixel, which is always enough
 };
 
 struct IrregularWork {
-    double ms_list = 0.0;    // clearing included
+    double ms_list = 0.0;  // clearing included
     double ms_trace = 0.0;
     std::uint32_t nodes = 0;            // that the lists have, or would need
     std::uint32_t large_triangles = 0;  // traced by a group each

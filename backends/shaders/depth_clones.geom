@@ -4,7 +4,7 @@
 // has a first and a last split; a set of maps may also have holes.
 #version 450
 #include "maps.glsl"
-#include "transform.glsl"
+#include "shadowmath/glsl/tangent.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 24) out;
@@ -17,7 +17,7 @@ void main() {
         if ((maps[0] >> map & 1u) == 0u) continue;
         for (int corner = 0; corner < 3; ++corner) {
             gl_Layer = map;
-            gl_Position = transformed(clip_from_world[map], point[corner]);
+            gl_Position = sm_transformed(clip_from_world[map], point[corner]);
             EmitVertex();
         }
         EndPrimitive();

@@ -6,12 +6,12 @@
 #version 450
 #extension GL_ARB_shader_viewport_layer_array : require
 #include "maps.glsl"
-#include "transform.glsl"
+#include "shadowmath/glsl/tangent.glsl"
 
 layout(location = 0) in vec3 position;  // world
 layout(location = 3) in uint number;    // the map
 
 void main() {
     gl_Layer = int(number);
-    gl_Position = transformed(clip_from_world[number], position);
+    gl_Position = sm_transformed(clip_from_world[number], position);
 }

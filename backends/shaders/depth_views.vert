@@ -4,10 +4,10 @@
 #version 450
 #extension GL_EXT_multiview : require
 #include "maps.glsl"
-#include "transform.glsl"
+#include "shadowmath/glsl/tangent.glsl"
 
 layout(location = 0) in vec3 position;  // world
 
 void main() {
-    gl_Position = transformed(clip_from_world[gl_ViewIndex], position);
+    gl_Position = sm_transformed(clip_from_world[gl_ViewIndex], position);
 }

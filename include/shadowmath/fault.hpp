@@ -13,22 +13,22 @@ namespace shadowmath {
 inline namespace v0 {
 
 enum class Fault : std::uint32_t {
-    not_finite = 1u << 0,       // a NaN or an infinity where a number was needed
-    zero_light = 1u << 1,       // the light's direction has no length
-    near_clamped = 1u << 2,     // the near distance was raised so that ratios of distances exist
-    empty_range = 1u << 3,      // near < 0, or near >= far
-    far_clamped = 1u << 4,      // the far distance is infinite or too far, and was cut
-    bad_frustum = 1u << 5,      // sides crossed, equal or not finite: a field of view outside (0, pi), an aspect of 0
-    bad_pose = 1u << 6,         // the axes are too far from orthonormal to be mended
-    count_clamped = 1u << 7,    // more maps asked for than fit, or than the range can be divided into
-    clamped_option = 1u << 8,   // an option outside its stated range was brought to the nearer end
-    map_too_small = 1u << 9,    // fewer texels than filter and snapping need
-    bad_region = 1u << 10,      // a tile or region without area, or outside its map
-    cone_clamped = 1u << 11,    // a spot's half angle was brought into its range
-    invalid_plane = 1u << 12,   // a shadow plane that contains the light or the eye, or has no normal
-    bad_projection = 1u << 13,  // a given projection matrix from which no view volume can be read
-    precision_lost = 1u << 14,  // coordinates too large for the scalar type to keep texels still; use double
-    warp_faded = 1u << 15,      // light and view are nearly parallel: the warp gave way to a uniform map
+    not_finite = 1u << 0,         // a NaN or an infinity where a number was needed
+    zero_light = 1u << 1,         // the light's direction has no length
+    near_clamped = 1u << 2,       // the near distance was raised so that ratios of distances exist
+    empty_range = 1u << 3,        // near < 0, or near >= far
+    far_clamped = 1u << 4,        // the far distance is infinite or too far, and was cut
+    bad_frustum = 1u << 5,        // sides crossed, equal or not finite: a field of view outside (0, pi), an aspect of 0
+    bad_pose = 1u << 6,           // the axes are too far from orthonormal to be mended
+    count_clamped = 1u << 7,      // more maps asked for than fit, or than the range can be divided into
+    clamped_option = 1u << 8,     // an option outside its stated range was brought to the nearer end
+    map_too_small = 1u << 9,      // fewer texels than filter and snapping need
+    bad_region = 1u << 10,        // a tile or region without area, or outside its map
+    cone_clamped = 1u << 11,      // a spot's half angle was brought into its range
+    invalid_plane = 1u << 12,     // a shadow plane that contains the light or the eye, or has no normal
+    bad_projection = 1u << 13,    // a given projection matrix from which no view volume can be read
+    precision_lost = 1u << 14,    // coordinates too large for the scalar type to keep texels still; use double
+    warp_faded = 1u << 15,        // light and view are nearly parallel: the warp gave way to a uniform map
     storage_too_small = 1u << 16  // the caller's arrays are shorter than the result needs
 };
 

@@ -48,8 +48,8 @@ template <class T>
 // As fit_box holds corners, this holds every vertex of the body (in world space), and area(box) is never more than that
 // of fit_box in the same basis. Of the four quarter turns the one nearest to `previous_x` is taken: the x axis of the
 // last frame's box, a world direction; or to basis.x where it is zero, or not finite, or along the light. Exactly its
-// direction is kept while the area is at most 1 + hysteresis times the least, and no more than fit_box's. Bodies that are empty, not
-// finite, or beyond 1e18 m give what fit_box gives for such corners.
+// direction is kept while the area is at most 1 + hysteresis times the least, and no more than fit_box's. Bodies that
+// are empty, not finite, or beyond 1e18 m give what fit_box gives for such corners.
 template <class T>
 [[nodiscard]] inline LightBox<T> fit_rectangle(LightBasis<T> const& basis, ConvexBody<T> const& body, int map_size,
                                                T margin_texels, Vec3<T> const& previous_x = Vec3<T>(T(0)),

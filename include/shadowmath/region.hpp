@@ -218,7 +218,7 @@ struct BoundsBlock {
             Row const w = row_of(3, i);
             T const least = less(w.x0, w.x1) + less(w.y0, w.y1) + less(w.z0, w.z1);
             T const most = more(w.x0, w.x1) + more(w.y0, w.y1) + more(w.z0, w.z1);
-            behind[i] = (most < w_min) & (plain[i] != 0) ? 1u : 0u;
+            behind[i] = ((most < w_min) & (plain[i] != 0)) ? 1u : 0u;
             plain[i] = least >= w_min ? plain[i] : 0u;
             inverse[0][i] = T(1) / sum(w, 0), inverse[1][i] = T(1) / sum(w, 1);
             inverse[2][i] = T(1) / sum(w, 2), inverse[3][i] = T(1) / sum(w, 3);

@@ -67,13 +67,14 @@ template <class T>
 
 namespace detail {
 
-// The bits of a positive float grow with it, evenly in each octave: exponent and 5 bits of mantissa are its bin.
+// The bits of a positive float grow with it, evenly in each octave: exponent and 5 bits of mantissa are its bin. The
+// sign is shifted out: -0 is not below a near distance of 0.
 template <class T>
 [[nodiscard]] inline int depth_key(T depth) noexcept {
     float const value = static_cast<float>(depth);
     std::uint32_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    return static_cast<int>(bits >> 18);
+    return static_cast<int>((bits & 0x7fffffffu) >> 18);
 }
 
 // The sixteen octaves before z_far; what is nearer shares the first bin.

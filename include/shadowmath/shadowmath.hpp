@@ -26,6 +26,7 @@
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
+#include <shadowmath/fit_cube.hpp>
 #include <shadowmath/fit_focus.hpp>
 #include <shadowmath/fit_rectangle.hpp>
 #include <shadowmath/fit_sphere.hpp>
@@ -36,12 +37,16 @@
 
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
+#include <shadowmath/plane_choice.hpp>
 #include <shadowmath/points.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
 // Stillness; translate and scale.
+#include <shadowmath/clipmap.hpp>
 #include <shadowmath/region.hpp>
+#include <shadowmath/schedule.hpp>
+#include <shadowmath/scroll.hpp>
 #include <shadowmath/texel_grid.hpp>
 
 // What a matrix is worth, and needs.
@@ -53,6 +58,10 @@
 
 // The one call.
 #include <shadowmath/cascades.hpp>
+
+// Which options.
+#include <shadowmath/choose.hpp>
+#include <shadowmath/judge.hpp>
 
 // The same for what is seen, pixel by pixel.
 #include <shadowmath/sample_bounds.hpp>

@@ -44,8 +44,8 @@ struct HalfSpaces {
 // How much a caster may stand beside the body and still matter to it.
 template <class T>
 struct SweepPadding {
-    T metres = T(0);      // everywhere: filter, bias, a spot's own radius; >= 0
-    T sun_slope = T(0);   // tan of the sun's angular radius: the sweep widens by this for a metre of height; >= 0
+    T metres = T(0);     // everywhere: filter, bias, a spot's own radius; >= 0
+    T sun_slope = T(0);  // tan of the sun's angular radius: the sweep widens by this for a metre of height; >= 0
 };
 
 namespace detail {

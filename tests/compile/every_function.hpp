@@ -26,6 +26,8 @@ int every_overloaded_function() noexcept {
     count += all_finite(&point.x, 3) && all_finite(Vec2<T>(point)) && all_finite(point) && all_finite(identity) &&
              all_finite(box);
     count += is_empty(merge(merge(box, point), intersect(box, box))) || is_empty(intersect(Region<T>{}, Region<T>{}));
+    count += is_empty(projected_bounds(identity, corners(box), T(0)));
+    count += is_empty(projected_bounds(identity, BoxArrays<T>{}, 0, T(0)));
     count += contains(box, point) || contains(map, 16, T(1), point);
     count += corners(box)[0] == corners(view)[0];
     count += (faults_of(view) | faults_of(Light<T>{}) | faults_of(Tile{})).any();
@@ -68,7 +70,11 @@ int every_function() noexcept {
     count += keep(&slope<T>, &lean<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
                   &normal_offset_metres<T>, &bias_for<T>, &bias_at<T>);
     count += keep(&bounds_of<T>);
+    count += keep(&least_squares_plane<T>, &median_plane<T>, &plane_distortion<T>, &choose_plane<T>, &worth_of<T>,
+                  &still_good<T>);
+    count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
+    count += keep(&clipmap<T>, &pixel_metres<T>, &page_at<T>, &holds<T>, &page_for<T>);
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);
     count += keep(&row<T>, &from_rows<T>, &nowhere<T>);
     count += keep(&add_map<T>, &caster_masks<T>);
@@ -80,6 +86,7 @@ int every_function() noexcept {
     count += keep(&focus_of<T>, &fit_focus<T>, &rolled<T>, &fit_rectangle<T>);
     count += keep(&scene_independent_box<T>, &scene_dependent_box<T>, &crop_matrix<T>, &spot_view<T>,
                   &spot_clip_from_world<T>, &fit_spot<T>);
+    count += keep(&face_light<T>, &face_toward<T>, &fit_cube<T>);
     count += keep(&bounding_sphere<T>);
     count += keep(&gpu_shadow_map<T>, &gpu_map<T>, &gpu_penumbra<T>, &gpu_cascades<T>);
     count += keep(&texels_per_pixel<T>, &footprint<T>);
@@ -95,8 +102,7 @@ int every_function() noexcept {
     count += keep(&sun_radius<T>, &penumbra_metres<T>, &gap_of_metres<T>, &metres_of_gap<T>, &place_from_world<T>,
                   &penumbra_for<T>, &across<T>, &gap_at<T>, &kernel_texels<T>);
     count += keep(&translated<T>, &visible_body<T>);
-    count +=
-        keep(&region_of<T>, &widened<T>, &with_margin<T>, &region_matrix<T>, &tile_matrix<T>, &projected_bounds<T>);
+    count += keep(&region_of<T>, &widened<T>, &with_margin<T>, &region_matrix<T>, &tile_matrix<T>);
     count += keep(&by_depth<T>, &by_map<T>, &blended<T>, &shade<T>);
     count +=
         keep(&sample_rays<T>, &from_eye<T>, &is_served<T>, &eighth_of_octave_up<T>, &light_entry<T>, &fit_samples<T>);
@@ -105,13 +111,16 @@ int every_function() noexcept {
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);
     count += keep(&transformed<T>, &projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);
-    count += keep(&texel_grid<T>, &on_grid<T>);
+    count += keep(&texel_grid<T>, &on_grid<T>, &grid_window<T>, &texel_for<T>, &held_size<T>);
+    count += keep(&scroll_between<T>, &unchanged<T>) + frames_between(1, 4) + (maps_due(3, 4) != 0);
+    count += wrapped(std::int64_t(-1), 8) + wrapped(TexelGrid<T>{}, TexelRect{}).count;
     count += keep(&plane_through<T>, &mean_height_plane<T>, &plane_projection<T>, &view_dependent_map<T>,
                   &receiver_valid<T>);
     count += keep(&pose_looking<T>, &perspective_view<T>, &orthographic_view<T>, &view_from_projection<T>,
                   &orthonormalized<T>, &point_at<T>, &eye_depth<T>);
     count +=
         keep(&vsm_moments<T>, &vsm_visibility<T>, &evsm_warp<T>, &evsm_moments<T>, &evsm_bound<T>, &evsm_visibility<T>);
+    count += keep(&lloyd_inverse_centre<T>, &lloyd_eta<T>, &trapezoid_inverse_centre<T>, &extended_inverse_centre<T>);
     count += keep(&printed_simple_warp<T>, &corrected_simple_warp<T>, &optimal_inverse_centre<T>, &perspective_warp<T>,
                   &warp_axes<T>, &simple_perspective_map<T>);
     return count;

@@ -3,10 +3,10 @@
 // Runs the laws on stored and on pseudo-random bytes, the same on every machine, and prints for each target a hash of
 // what came out.
 //
-//   replay [--finite] [--cases N] [--seed S] [target or file ...]
+//   replay [--finite] [--flush] [--cases N] [--seed S] [target or file ...]
 //
-// --finite leaves out NaN and infinity, for builds with -ffast-math. A file belongs to the target that its folder is
-// named after.
+// --finite leaves out NaN and infinity, for builds with -ffast-math; --flush takes denormals for zero, as games do (x86
+// only). A file belongs to the target that its folder is named after.
 #include "tests/fuzz/case.hpp"
 #include "tests/support/counted_new.hpp"
 
@@ -15,6 +15,10 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 namespace {
 
@@ -74,8 +78,11 @@ int main(int argc, char** argv) {
     std::vector<std::string> wanted, paths;
     for (int i = 1; i < argc; ++i) {
         std::string const argument = argv[i];
-        if (argument == "--finite")
-            numbers = Numbers::finite;
+        if (argument == "--finite") numbers = Numbers::finite;
+#if defined(__SSE2__)
+        else if (argument == "--flush")
+            _mm_setcsr(_mm_getcsr() | 0x8040u);
+#endif
         else if (argument == "--cases" && i + 1 < argc)
             cases = std::atoi(argv[++i]);
         else if (argument == "--seed" && i + 1 < argc)

@@ -50,7 +50,9 @@ template <class T>
 // Of the ground that a sun's map covers, across the light.
 template <class T>
 [[nodiscard]] long double square_metres(ShadowMap<T> const& map) {
-    auto const length = [&](int r) { return glm::length(Vec3<long double>(Vec4<long double>(row(map.clip_from_world, r)))); };
+    auto const length = [&](int r) {
+        return glm::length(Vec3<long double>(Vec4<long double>(row(map.clip_from_world, r))));
+    };
     return 2 / length(0) * (2 / length(1));
 }
 

@@ -19,8 +19,8 @@ template <class T>
                        [&](Vec4<T> const& plane) { return glm::dot(plane, Vec4<T>(point, T(1))) >= -slack; });
 }
 
-// The point has the body below it: somewhere on its ray away from the light it is in all of the body's half-spaces, each
-// moved outward by `slack` of its normal's length.
+// The point has the body below it: somewhere on its ray away from the light it is in all of the body's half-spaces,
+// each moved outward by `slack` of its normal's length.
 template <class T>
 [[nodiscard]] bool casts_on(ConvexBody<T> const& body, Vec4<T> const& source, Vec3<T> const& point, T slack) {
     T first = T(0), last = std::numeric_limits<T>::max();

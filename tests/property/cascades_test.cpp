@@ -73,7 +73,9 @@ TYPED_TEST(CascadesProperty, EveryMapObeysTheLaw) {
         using T = TypeParam;
         ViewVolume<T> const view = drawn_view<T>(T(100));
         Light<T> const light = *sun<T>();
-        CascadeOptions<T> const options = drawn_options<T>();
+        CascadeOptions<T> options = drawn_options<T>();
+        options.fit = static_cast<CascadeFit>(*below(5));
+        options.steady_maps = static_cast<int>(*below(3));
         Aabb<T> const casters = *box<T>(T(100));
         Aabb<T> const receivers = *box<T>(T(100));
         auto const cascades = fit_cascades(view, light, casters, receivers, options);
@@ -121,9 +123,10 @@ TYPED_TEST(CascadesProperty, EachFitCoversNoMoreGroundThanTheOneBeforeIt) {
             for (int i = 0; i < cascades.count; ++i) {
                 if (!cascades.at[i].map.visible) continue;
                 long double const covered = laws::square_metres(cascades.at[i].map);
-                // Clipped bodies carry sixteen roundings a vertex, and thin ones are widened to a texel of their length.
-                T const lost = tolerance(glm::length(view.pose.position) + view.z_far, 64) *
-                               T(options.map_size) / cascades.at[i].texel_metres / T(options.map_size);
+                // Clipped bodies carry sixteen roundings a vertex, and thin ones are widened to a texel of their
+                // length.
+                T const lost = tolerance(glm::length(view.pose.position) + view.z_far, 64) * T(options.map_size) /
+                               cascades.at[i].texel_metres / T(options.map_size);
                 long double const slack =
                     cascade_fit == CascadeFit::focus ? 1 + 1e-3L + static_cast<long double>(lost) : 1 + 1e-5L;
                 RC_ASSERT(covered <= before[static_cast<std::size_t>(i)] * slack);
@@ -168,6 +171,8 @@ TYPED_TEST(CascadesProperty, NoInputMakesANaNAnAllocationOrATrap) {
         Aabb<T> const casters = *nasty_box<T>();
         Aabb<T> const receivers = *nasty_box<T>();
         CascadeOptions<T> options = drawn_options<T>();
+        options.fit = static_cast<CascadeFit>(*below(5));
+        options.warp_strength = *nasty<T>();
         options.lambda = *nasty<T>();
         options.blend = *nasty<T>();
         options.shadow_distance = *nasty<T>();

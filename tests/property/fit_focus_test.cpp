@@ -28,9 +28,9 @@ TYPED_TEST(FitFocusProperty, HoldsWhatIsSeenInShadowAndTheCasterOfThatShadow) {
         Aabb<T> const casters{caster - half, caster + half};
         Focus<T> const focus = focus_of(scene.view, light, casters, scene.receivers);
         // Roundings of the point and its caster, as far out as they lie.
-        T const noise = T(64) * std::numeric_limits<T>::epsilon() *
-                        (glm::length(scene.view.pose.position) + glm::length(scene.point) + glm::length(caster) +
-                         scene.view.z_far);
+        T const noise =
+            T(64) * std::numeric_limits<T>::epsilon() *
+            (glm::length(scene.view.pose.position) + glm::length(scene.point) + glm::length(caster) + scene.view.z_far);
         RC_ASSERT(laws::focuses(focus, light.direction, scene.point, caster, noise));
     }));
 }

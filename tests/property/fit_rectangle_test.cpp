@@ -83,8 +83,7 @@ TYPED_TEST(FitRectangleProperty, IsABoxForAnyNumbersAtAll) {
         auto const margin = *nasty<T>();
         auto const hysteresis = *nasty<T>();
         int const size = static_cast<int>(*below(5000)) - 3;
-        RC_ASSERT(laws::is_a_box(
-            fit_rectangle(light_basis(light.direction), body, size, margin, last, hysteresis)));
+        RC_ASSERT(laws::is_a_box(fit_rectangle(light_basis(light.direction), body, size, margin, last, hysteresis)));
     }));
 }
 

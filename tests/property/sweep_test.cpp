@@ -39,8 +39,8 @@ Light<T> drawn_light() {
     return sun_or_spot ? sky : spot(place, sky.direction, T(1), T(100));
 }
 
-// Coordinates of at most 35 m, or 250 m on the way to the light; ten cuts of twenty roundings, and the sum of two planes
-// twenty more. The sum is divided by its length, which at a thousandth of a turn is a thousandth.
+// Coordinates of at most 35 m, or 250 m on the way to the light; ten cuts of twenty roundings, and the sum of two
+// planes twenty more. The sum is divided by its length, which at a thousandth of a turn is a thousandth.
 template <class T>
 constexpr T slack = T(220) * std::numeric_limits<T>::epsilon() * T(250);
 

@@ -92,13 +92,14 @@ struct TracedMap {
     std::vector<float> depths;
 };
 
-TracedMap sun_map(RayOracle const& oracle, Light<double> const& sun, double half_metres, int size) {
+TracedMap sun_map(RayOracle const& oracle, Light<double> const& sun, double half_metres, int size,
+                  double metres_above = 8.0) {
     LightBox<double> box;
     box.basis = light_basis(sun.direction);
     glm::dvec3 const centre = in_light(box.basis, {1.0, 0.0, 0.5});
     box.lo = glm::dvec2(centre) - half_metres;
     box.hi = glm::dvec2(centre) + half_metres;
-    box.depth_lo = centre.z - 8.0;
+    box.depth_lo = centre.z - metres_above;
     box.depth_hi = centre.z + 8.0;
     return {oracle, sun, clip_from_world(box, gl_zero_to_one_clip), size};
 }
@@ -252,17 +253,22 @@ TEST(Pcss, AgreesWithRaysWhereOccludersOverlap) {
     EXPECT_LT(soft.in_penumbra, 0.024);
 }
 
-TEST(Pcss, GivesTheSamePenumbraFromMapsOfAnyTexelSize) {
+// Two cascades: texels of 10 and 20 mm, near ends 8 and 40 m toward the light.
+TEST(Pcss, GivesTheSamePenumbraFromMapsOfAnyTexelSizeAndDepthRange) {
     RayOracle const oracle(over_floor({hanging}));
     TracedMap const fine = sun_map(oracle, sun, 5.0, 1024), coarse = sun_map(oracle, sun, 10.0, 1024);
+    TracedMap const deep = sun_map(oracle, sun, 10.0, 1024, 40.0);
     double const radius = 0.05;
     auto const points = floor_points(4000, {-1.0, -1.0}, {3.0, 2.0});
     std::vector<double> in_fine;
     for (glm::dvec3 const& point : points) in_fine.push_back(fine.soft(point, radius, {}).visibility);
     Errors const jump = errors_of("from texels of 10 mm to 20 mm", points, in_fine,
                                   [&](auto p) { return coarse.soft(p, radius, {}).visibility; });
+    Errors const deeper = errors_of("and to a near end five times as far", points, in_fine,
+                                    [&](auto p) { return deep.soft(p, radius, {}).visibility; });
     EXPECT_LT(jump.mean, 0.001);
     EXPECT_LT(jump.most, 0.1);
+    EXPECT_LT(deeper.mean, 0.0022);
 }
 
 TEST(Hfts, KeepsContactsExactAndPenumbraeSoft) {

@@ -47,8 +47,7 @@ private:
 };
 
 inline ViewVolume<float> standing_eye(float aspect) {
-    Pose<float> const pose =
-        pose_looking<float>({-31.0f, 7.5f, 29.0f}, {0.72f, -0.24f, -0.65f}, {0.0f, 1.0f, 0.0f});
+    Pose<float> const pose = pose_looking<float>({-31.0f, 7.5f, 29.0f}, {0.72f, -0.24f, -0.65f}, {0.0f, 1.0f, 0.0f});
     return perspective_view<float>(pose, 1.0f, aspect, 0.1f, 300.0f);
 }
 
@@ -78,7 +77,9 @@ inline CasterScene terrain_scene(std::uint32_t triangles, float aspect) {
 inline void add_floor(CasterScene& scene, int cells) {
     for (int j = 0; j < cells; ++j)
         for (int i = 0; i < cells; ++i) {
-            auto const at = [cells](int a, int b) { return glm::dvec3(-40.0 + 80.0 * a / cells, 0.0, -40.0 + 80.0 * b / cells); };
+            auto const at = [cells](int a, int b) {
+                return glm::dvec3(-40.0 + 80.0 * a / cells, 0.0, -40.0 + 80.0 * b / cells);
+            };
             scene.add(at(i, j), at(i, j + 1), at(i + 1, j));
             scene.add(at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
         }
@@ -129,7 +130,8 @@ inline CasterScene leaves_scene(std::uint32_t triangles, float aspect) {
         do place = glm::dvec3(dice(-1.0, 1.0), dice(-1.0, 1.0), dice(-1.0, 1.0));
         while (glm::dot(place, place) > 1.0);
         glm::dvec3 const at = crown[tree] + place * 3.0;
-        glm::dvec3 along(dice(-1.0, 1.0), dice(-1.0, 1.0), dice(-1.0, 1.0)), side(dice(-1.0, 1.0), dice(-1.0, 1.0), dice(-1.0, 1.0));
+        glm::dvec3 along(dice(-1.0, 1.0), dice(-1.0, 1.0), dice(-1.0, 1.0)),
+            side(dice(-1.0, 1.0), dice(-1.0, 1.0), dice(-1.0, 1.0));
         along = glm::normalize(along + glm::dvec3(1e-3, 0.0, 0.0)) * size;
         side = glm::normalize(glm::cross(along, side + glm::dvec3(0.0, 1e-3, 0.0))) * (0.5 * size);
         scene.add(at - along, at - side, at + side);

@@ -53,8 +53,10 @@ inline std::vector<float> g_buffer(CasterScene const& scene, int width, int heig
                 std::size_t const pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 if (!(depth > eye.z_near) || !(depth < nearest[pixel])) continue;
                 nearest[pixel] = depth;
-                glm::dvec3 const at = glm::dvec3(frame.eye) + (glm::dvec3(frame.across) * ray.x +
-                                      glm::dvec3(frame.upward) * ray.y + glm::dvec3(frame.inward)) * depth;
+                glm::dvec3 const at =
+                    glm::dvec3(frame.eye) +
+                    (glm::dvec3(frame.across) * ray.x + glm::dvec3(frame.upward) * ray.y + glm::dvec3(frame.inward)) *
+                        depth;
                 glm::dvec3 const n = glm::normalize(in_world);
                 for (int i = 0; i < 3; ++i) {
                     receivers[6 * pixel + std::size_t(i)] = float(at[i]);

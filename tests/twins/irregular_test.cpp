@@ -134,7 +134,8 @@ constexpr Shown few_boxes{"few boxes", [] { return boxes_scene(5'000, 16.0f / 9.
 Case const& the_case(Shown const& which) {
     static std::map<std::string, Case> cases;
     auto const known = cases.find(which.name);
-    return known != cases.end() ? known->second : cases.emplace(which.name, Case(which.make(), which.grid)).first->second;
+    return known != cases.end() ? known->second
+                                : cases.emplace(which.name, Case(which.make(), which.grid)).first->second;
 }
 
 TEST_P(IrregularPassesTest, AgreeWithTheCpuTo15SamplesInAMillionAndWithEachOtherToTheBit) {
@@ -157,11 +158,11 @@ TEST_P(IrregularPassesTest, AgreeWithTheCpuTo15SamplesInAMillionAndWithEachOther
         std::printf("%-9s %-19s %u triangles: %5.2f ppm of samples unlike the CPU's (%.0f %% dark, %.1f %% of pixels "
                     "mixed), %.2f nodes a pixel, %u large, list %.0f ms, trace %.0f ms\n",
                     name_of(GetParam()).c_str(), which.name, tried.scene.triangle_count(), 1e6 * unlike / all,
-                    100.0 * double(dark) / all, 100.0 * double(mixed) / double(pixels), double(work.nodes) / double(pixels),
-                    work.large_triangles, work.ms_list, work.ms_trace);
+                    100.0 * double(dark) / all, 100.0 * double(mixed) / double(pixels),
+                    double(work.nodes) / double(pixels), work.large_triangles, work.ms_list, work.ms_trace);
         EXPECT_LE(unlike, 15e-6 * all);
         EXPECT_FALSE(work.storage_too_small);
-            EXPECT_GT(mixed, pixels / 500);
+        EXPECT_GT(mixed, pixels / 500);
         auto const first = of_first_driver.try_emplace(which.name, masks).first;
         EXPECT_EQ(unlike_samples(masks, first->second), 0u);
     }

@@ -73,8 +73,7 @@ TYPED_TEST(CascadesOf, RectanglesKeepTheAngleOfTheLastFrame) {
     auto const before = this->fitted();
     // Half a degree to the left.
     this->view.pose = pose_looking(this->view.pose.position, Vec3<T>(T(-0.009), T(0), T(-1)), this->view.pose.up);
-    auto const after =
-        fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
+    auto const after = fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
     for (int i = 0; i < after.count; ++i) {
         auto const x = [i](Cascades<T> const& c) {
             return safe_normalize(Vec3<T>(row(c.at[i].map.clip_from_world, 0))).direction;
@@ -82,6 +81,51 @@ TYPED_TEST(CascadesOf, RectanglesKeepTheAngleOfTheLastFrame) {
         EXPECT_NEAR(glm::dot(x(before), x(after)), T(1), 1e-6);
         EXPECT_LT(glm::dot(x(this->fitted()), x(before)), T(1) - T(1e-5));
     }
+}
+
+// From 60 to 30 degrees and back in half degrees: with the last frame at hand texels change a few times, not each time.
+TYPED_TEST(CascadesOf, ASlowZoomKeepsTheTexelsOfStableMaps) {
+    using T = TypeParam;
+    auto last = this->fitted();
+    int changes = 0;
+    for (int i = 0; i <= 120; ++i) {
+        T const half = T(0.2618) + T(0.2618) * std::abs(T(1) - T(i) / T(60));
+        ViewVolume<T> zoomed = this->view;
+        zoomed.top = std::tan(half);
+        zoomed.bottom = -zoomed.top;
+        zoomed.right = zoomed.top * T(1.6);
+        zoomed.left = -zoomed.right;
+        auto const now = fit_cascades(zoomed, this->sun, this->world, this->world, this->options, &last);
+        T const needed = fit_cascades(zoomed, this->sun, this->world, this->world, this->options).at[2].texel_metres;
+        EXPECT_GE(now.at[2].texel_metres, needed);
+        EXPECT_LE(now.at[2].texel_metres, needed * T(1.25));
+        changes += now.at[2].texel_metres != last.at[2].texel_metres;
+        last = now;
+    }
+    EXPECT_LE(changes, 16);
+}
+
+TYPED_TEST(CascadesOf, TheNearestMapsStayStableBeforeAnyOtherFit) {
+    auto const stable = this->fitted();
+    this->options.fit = CascadeFit::rectangle;
+    this->options.steady_maps = 2;
+    auto const mixed = this->fitted();
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(mixed.at[i].map.clip_from_world == stable.at[i].map.clip_from_world, i < 2) << i;
+}
+
+TYPED_TEST(CascadesOf, WarpedSlicesAreWarpedMaps) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::warped;
+    auto const cascades = this->fitted();
+    for (auto const& c : cascades) {
+        EXPECT_TRUE(c.map.visible);
+        EXPECT_GT(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
+        EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+        EXPECT_EQ(c.texel_metres, T(0));
+    }
+    this->options.warp_strength = T(0);
+    for (auto const& c : this->fitted()) EXPECT_EQ(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
 }
 
 TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {

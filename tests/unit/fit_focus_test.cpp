@@ -72,8 +72,7 @@ TEST(FitFocus, SeesNothingWhereNothingCastsAndSaysSo) {
         EXPECT_FALSE(focus_of(level_slice(), overhead, casters, ground).visible);
     EXPECT_FALSE(focus_of(level_slice(), overhead, world, Aabb<double>{V3(-5, 0, 50), V3(5, 1, 60)}).visible);
     EXPECT_FALSE(focus_of(level_slice(), spot(V3(0, 9, -20), V3(0, -1, 0), 0.5, 20.0), world, ground).visible);
-    EXPECT_FALSE(
-        focus_of(level_slice(5.0, std::numeric_limits<double>::infinity()), overhead, world, ground).visible);
+    EXPECT_FALSE(focus_of(level_slice(5.0, std::numeric_limits<double>::infinity()), overhead, world, ground).visible);
     EXPECT_EQ(fit_focus(axes, Focus<double>{}, 1024, 0.0).lo, glm::dvec2(-1));
 }
 
@@ -86,8 +85,8 @@ TEST(FitFocus, ServesAFlatGroundThatIsCasterAndReceiver) {
 TEST(FitFocus, MendsBoxesWithoutEnd) {
     float const most = std::numeric_limits<float>::max();
     Aabb<float> const endless{glm::vec3(-most), glm::vec3(most)};
-    ViewVolume<float> const view =
-        perspective_view(pose_looking(glm::vec3(5, 6, 7), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
+    ViewVolume<float> const view = perspective_view(
+        pose_looking(glm::vec3(5, 6, 7), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
     auto const focus =
         test::watched([&] { return focus_of(view, directional(glm::vec3(1, -2, 1)), endless, endless); });
     EXPECT_TRUE(focus.calm());

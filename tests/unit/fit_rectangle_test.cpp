@@ -30,8 +30,7 @@ ConvexBody<double> plank(double angle) {
 
 ConvexBody<double> slice_seen(double yaw, double pitch = -0.3) {
     V3 const forward(std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch));
-    return convex_body(
-        corners(perspective_view(pose_looking(V3(0, 2, 0), forward, V3(0, 1, 0)), 1.0, 1.6, 1.0, 30.0)));
+    return convex_body(corners(perspective_view(pose_looking(V3(0, 2, 0), forward, V3(0, 1, 0)), 1.0, 1.6, 1.0, 30.0)));
 }
 
 double angle_of(LightBox<double> const& box) {
@@ -50,7 +49,8 @@ TEST(FitRectangle, FindsATurnedRectangleExactly) {
 
 TEST(FitRectangle, TakesTheQuarterTurnNearestToTheAxesGiven) {
     for (double angle = 0.0; angle < 6.3; angle += 0.37)
-        EXPECT_GE(glm::dot(fit_rectangle(overhead, plank(angle), 1024, 0.0).basis.x, overhead.x), std::sqrt(0.5) - 1e-9);
+        EXPECT_GE(glm::dot(fit_rectangle(overhead, plank(angle), 1024, 0.0).basis.x, overhead.x),
+                  std::sqrt(0.5) - 1e-9);
 }
 
 TEST(FitRectangle, KeepsTheLastAngleWhileItIsNearlyAsGood) {
@@ -86,7 +86,8 @@ TEST(FitRectangle, RestsAsTheCameraTurns) {
     EXPECT_GT(rests, 3 * turns);
 }
 
-// Published ratios: an unaligned box needs 1.3 to 1.4 times the area of the least rectangle (mean over light directions).
+// Published ratios: an unaligned box needs 1.3 to 1.4 times the area of the least rectangle (mean over light
+// directions).
 TEST(FitRectangle, NeedsAQuarterLessThanTheBoxInTheMean) {
     std::mt19937 random(7);
     auto const unit = [&] { return double(random()) / 4294967296.0 * 2.0 - 1.0; };
@@ -100,7 +101,8 @@ TEST(FitRectangle, NeedsAQuarterLessThanTheBoxInTheMean) {
             double const extent = area(fit_box(light_basis(glm::normalize(travel)), corners(view), 1024, 2.0));
             boxes += 1.0;
             rectangles +=
-                area(fit_rectangle(light_basis(glm::normalize(travel)), convex_body(corners(view)), 1024, 2.0)) / extent;
+                area(fit_rectangle(light_basis(glm::normalize(travel)), convex_body(corners(view)), 1024, 2.0)) /
+                extent;
         }
     EXPECT_LT(rectangles / boxes, 0.8);
     EXPECT_GT(rectangles / boxes, 0.6);

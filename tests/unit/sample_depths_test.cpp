@@ -152,3 +152,11 @@ TYPED_TEST(SampleDepthsOf, ASampleAtTheEyeDoesNotStarveTheOthers) {
     EXPECT_EQ(sample_splits(at_the_eye, 3, SampleSplits::even).count, 1);
     EXPECT_EQ(sample_splits(at_the_eye, 3, SampleSplits::adaptive).count, 1);
 }
+
+TYPED_TEST(SampleDepthsOf, AMinusZeroAtANearDistanceOfZeroIsInTheFirstBin) {
+    using T = TypeParam;
+    auto depths = no_depths(T(0), T(100));
+    add(depths, -T(0));
+    EXPECT_EQ(depths.counted, 1);
+    EXPECT_EQ(depths.lo[0], T(0));
+}

@@ -99,8 +99,9 @@ template <class V, class T, class All>
     // Where the light meets the other side, everything is turned over.
     V const sign = with_sign_of(all(T(1)), volume.along);
     Triple<V> const facing = scaled(normal, sign);
-    Triple<V> const in_world = sum(scaled(triple(frame.to_across), facing.x),
-                                   sum(scaled(triple(frame.to_upward), facing.y), scaled(triple(frame.to_inward), facing.z)));
+    Triple<V> const in_world =
+        sum(scaled(triple(frame.to_across), facing.x),
+            sum(scaled(triple(frame.to_upward), facing.y), scaled(triple(frame.to_inward), facing.z)));
     V const unit = absolute(in_world.x) + absolute(in_world.y) + absolute(in_world.z);
     volume.planes[0] = plane({facing.x, facing.y, facing.z - unit * all(margin_share)},
                              all(T(0)) - fused(unit, margin_metres, inner(facing, p[0])));

@@ -78,10 +78,13 @@ static_assert(sizeof(GpuIrregular) == 320);
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
-    filled.frame = {frame.eye,       frame.width,    frame.across,    frame.height,
+    filled.frame = {frame.eye,       frame.width,
+                    frame.across,    frame.height,
                     frame.upward,    frame.kind == ViewKind::orthographic ? 1 : 0,
-                    frame.inward,    frame.origin.x, frame.to_across, frame.origin.y,
-                    frame.to_upward, detail::turn_limit(frame), frame.to_inward, 0.0f};
+                    frame.inward,    frame.origin.x,
+                    frame.to_across, frame.origin.y,
+                    frame.to_upward, detail::turn_limit(frame),
+                    frame.to_inward, 0.0f};
     filled.light_at = buffer.light.at;
     filled.parallel = buffer.light.parallel ? 1 : 0;
     for (int i = 0; i < 4; ++i) {

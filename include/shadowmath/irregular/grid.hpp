@@ -37,7 +37,7 @@ inline namespace v0 {
 inline constexpr int tile_side = 4;
 inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
 inline constexpr int most_levels = 8;
-inline constexpr int cell_shift = 4;   // a cell is 16 x 16 texels of the finest
+inline constexpr int cell_shift = 4;  // a cell is 16 x 16 texels of the finest
 
 // What the eye sees, row by row, `width` pixels each. Sky is a pixel whose normal is zero, whose depth is not positive,
 // or of which anything is not finite.
@@ -45,8 +45,8 @@ template <class T>
 struct Receivers {
     T const* position = nullptr;  // world; three scalars a pixel, `position_stride` apart
     int position_stride = 3;
-    T const* depth = nullptr;     // instead of positions: metres along the view's forward axis, one a pixel
-    T const* normal = nullptr;    // of the surface, not for shading; any length and sign
+    T const* depth = nullptr;   // instead of positions: metres along the view's forward axis, one a pixel
+    T const* normal = nullptr;  // of the surface, not for shading; any length and sign
     int normal_stride = 3;
 };
 
@@ -60,8 +60,8 @@ struct PixelRect {
 
 // What the lists of a buffer came to.
 struct ListCounts {
-    std::uint32_t tiles = 0;    // with a pixel that light may reach
-    std::uint32_t parts = 0;    // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
+    std::uint32_t tiles = 0;  // with a pixel that light may reach
+    std::uint32_t parts = 0;  // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
     std::uint32_t nodes = 0;
     std::uint32_t lists = 0;    // texels that are not empty
     std::uint32_t longest = 0;  // nodes in one texel
@@ -92,7 +92,7 @@ struct IrregularBuffer {
     T texel_error_here = T(0);  // and whatever the distance
     T depth_error = T(0);
     T depth_error_here = T(0);
-    T contact_reach = T(0);     // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
+    T contact_reach = T(0);  // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
     T contact_ray = T(0);
     int tiles_across = 0;
     int tile_count = 0;
@@ -286,8 +286,9 @@ struct TileKernel {
         auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
         int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
         for (int j = 0; j < tile_side; ++j) {
-            std::size_t const pixel = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
-                                      static_cast<std::size_t>(column);
+            std::size_t const pixel =
+                static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                static_cast<std::size_t>(column);
             for (int i = 0; i < tile_side; ++i) {
                 std::size_t const at = pixel + static_cast<std::size_t>(i < columns ? i : 0);
                 int const k = j * tile_side + i;
@@ -323,7 +324,7 @@ struct TileKernel {
         Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
         Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
         Lanes const m[3] = {Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2])};
-        auto const dot = [&all](Vec3<T> const& v, Lanes const (&a)[3]) {
+        auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
             return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
         };
         Lanes depth = Lanes::load(in[3]);
@@ -351,7 +352,8 @@ struct TileKernel {
         if (sound == 0) return;
 
         // Light and eye on the same side?
-        Lanes travel = fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
+        Lanes travel =
+            fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
             travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
         Lanes const under = zero - tiny;
@@ -414,7 +416,8 @@ struct TileKernel {
     }
 
     // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
-    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across) const noexcept {
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part,
+                int pixels_across) const noexcept {
         if (part == 0) return;
         Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
@@ -455,7 +458,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
     T scale[4];
     for (int i = 0; i < 4; ++i) {
         Vec4<T> const r = row(canonical, i);
-        scale[i] = std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+        scale[i] =
+            std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
     }
     // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
     Vec4<T> const image = canonical * source;
@@ -487,7 +491,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
 template <class T>
 [[nodiscard]] inline PixelPlane<T> plane_of_row(PixelFrame<T> const& frame, Vec4<T> const& row) noexcept {
     Vec3<T> const axis(row);
-    T const offset = row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
+    T const offset =
+        row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
     return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
 }
 
@@ -510,7 +515,8 @@ inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowM
 
 // The arrays of a buffer, cut from what the caller gave. No capacity where not even the tiles fit.
 template <class T>
-[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage, std::uint32_t texel_count) noexcept {
+[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage,
+                                      std::uint32_t texel_count) noexcept {
     Parts<T> parts;
     // What one part more adds: one of its own and four nodes of each array.
     StorageSize const least = storage_for(buffer.rect.width, buffer.rect.height, buffer.map_size, 1);
@@ -533,7 +539,8 @@ template <class T>
         return taken;
     };
     buffer.quad = take(scalars, 3 * lane_count * tiles);
-    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
+    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth})
+        *array = take(scalars, nodes);
     buffer.cell_depth = take(scalars, cells);
     parts.bounds = scalars;
     buffer.mask = take(words, lane_count * tiles);
@@ -607,22 +614,22 @@ template <class T, class Lanes = BestLanes<T>>
         rows[k] = T(k / tile_side);
     }
     Vec4<T> const* const row = buffer.row;
-    detail::TileKernel<Lanes> const kernel{
-        buffer,
-        receivers,
-        {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]), detail::plane_of_row(frame, row[2]),
-         detail::plane_of_row(frame, row[3])},
-        grid.w_min > T(0) ? grid.w_min : T(0),
-        detail::turn_limit(frame),
-        Lanes::load(columns),
-        Lanes::load(rows),
-        flat,
-        Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
+    detail::TileKernel<Lanes> const kernel{buffer,
+                                           receivers,
+                                           {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]),
+                                            detail::plane_of_row(frame, row[2]), detail::plane_of_row(frame, row[3])},
+                                           grid.w_min > T(0) ? grid.w_min : T(0),
+                                           detail::turn_limit(frame),
+                                           Lanes::load(columns),
+                                           Lanes::load(rows),
+                                           flat,
+                                           Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
     Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);
     Lanes least_w = huge, most_w = low;
     typename detail::TileKernel<Lanes>::Seen seen;
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
-        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side, rect.y + tile / buffer.tiles_across * tile_side, seen);
+        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side,
+                   rect.y + tile / buffer.tiles_across * tile_side, seen);
         std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
         for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
         buffer.state[2 * tile] = seen.alive;

@@ -105,7 +105,8 @@ template <class T>
     constexpr T turns = T(table_steps) / T(6.283185307179586476925286766559L);
     int const k = static_cast<int>(std::floor(angle * turns)) & (table_steps - 1);
     int const j = static_cast<int>(std::abs(r) / reach * T(table_steps));
-    std::uint32_t const mask = table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
+    std::uint32_t const mask =
+        table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
     return beyond ? ~mask : mask;
 }
 

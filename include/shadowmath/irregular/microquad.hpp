@@ -29,18 +29,18 @@ inline namespace v0 {
 // The eye's picture, width x height pixels, as a frame of space.
 template <class T>
 struct PixelFrame {
-    Vec3<T> eye{T(0)};                       // world
-    Vec3<T> across{T(1), T(0), T(0)};        // world: one pixel to the right, at depth 1
-    Vec3<T> upward{T(0), T(1), T(0)};        // one row on
-    Vec3<T> inward{T(0), T(0), T(-1)};       // one metre of depth, through the middle of the picture
-    Vec3<T> to_across{T(1), T(0), T(0)};     // rows of the inverse: dotted with point - eye
+    Vec3<T> eye{T(0)};                    // world
+    Vec3<T> across{T(1), T(0), T(0)};     // world: one pixel to the right, at depth 1
+    Vec3<T> upward{T(0), T(1), T(0)};     // one row on
+    Vec3<T> inward{T(0), T(0), T(-1)};    // one metre of depth, through the middle of the picture
+    Vec3<T> to_across{T(1), T(0), T(0)};  // rows of the inverse: dotted with point - eye
     Vec3<T> to_upward{T(0), T(1), T(0)};
     Vec3<T> to_inward{T(0), T(0), T(-1)};
-    Vec2<T> origin{T(0)};                    // orthographic: pixels from the eye's axis to the middle of the picture
+    Vec2<T> origin{T(0)};  // orthographic: pixels from the eye's axis to the middle of the picture
     int width = 0;
     int height = 0;
     ViewKind kind = ViewKind::perspective;
-    Faults faults;                           // of the view; map_too_small for a picture without pixels
+    Faults faults;  // of the view; map_too_small for a picture without pixels
 };
 
 // `rows`: whether rows of the picture count upward (OpenGL's and this library's backends) or downward.

@@ -60,22 +60,24 @@ struct TraceKernel {
 
     // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
     struct Batch {
-        std::uint32_t sound;              // bit k: triangle k may take light from a receiver
-        T vertex[3][3][lane_count];       // relative to the eye
-        T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
-        T depth[lane_count];              // the end nearest to the light
+        std::uint32_t sound;         // bit k: triangle k may take light from a receiver
+        T vertex[3][3][lane_count];  // relative to the eye
+        T bounds[4][lane_count];     // lo x, hi x, lo y, hi y in texels
+        T depth[lane_count];         // the end nearest to the light
         T plane[4][4][lane_count];
-        Lanes reach;                      // metres from the eye, at most
+        Lanes reach;  // metres from the eye, at most
     };
 
     // One triangle against sixteen pixels.
     void test(std::uint32_t tile, Batch const& batch, int k) const noexcept {
         std::uint32_t const alive = buffer.state[2 * tile];
         T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
+        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count),
+                    q_y = Lanes::load(quads + 2 * lane_count);
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
         T const x = T(static_cast<int>(tile % tiles_across) * tile_side + buffer.rect.x) - T(buffer.frame.width) / T(2);
-        T const y = T(static_cast<int>(tile / tiles_across) * tile_side + buffer.rect.y) - T(buffer.frame.height) / T(2);
+        T const y =
+            T(static_cast<int>(tile / tiles_across) * tile_side + buffer.rect.y) - T(buffer.frame.height) / T(2);
         Lanes const zero = Lanes::all(T(0));
         Lanes c[4], gain_x[4], gain_y[4];
         std::uint32_t touched = alive, covered = alive;
@@ -141,12 +143,15 @@ struct TraceKernel {
             int const level = lowest_bit(levels);
             auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, level));
             TexelRange const range = coarser(finest, level_shift * level);
-            std::uint32_t const* first = buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(range.y0) * size;
+            std::uint32_t const* first =
+                buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(range.y0) * size;
             for (int y = range.y0; y <= range.y1; ++y, first += size) {
                 std::uint32_t const end = first[range.x1 + 1];
                 for (std::uint32_t node = first[range.x0]; node < end; node += lane_count) {
-                    std::uint32_t hit = at_least(hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), lo_x) &
-                                        at_least(hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), lo_y) &
+                    std::uint32_t hit = at_least(hi_x, Lanes::load(buffer.lo_x + node)) &
+                                        at_least(Lanes::load(buffer.hi_x + node), lo_x) &
+                                        at_least(hi_y, Lanes::load(buffer.lo_y + node)) &
+                                        at_least(Lanes::load(buffer.hi_y + node), lo_y) &
                                         at_least(Lanes::load(buffer.depth + node), depth);
                     if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
                     for (; hit != 0; hit &= hit - 1) {
@@ -213,13 +218,15 @@ struct TraceKernel {
     // Bounds in the grid, and which of the sixteen reach a receiver's.
     void find(Batch& batch) const noexcept {
         auto const all = [](T value) { return Lanes::all(value); };
-        Lanes const largest_number = all(std::numeric_limits<T>::max()), lowest_number = all(std::numeric_limits<T>::lowest());
+        Lanes const largest_number = all(std::numeric_limits<T>::max()),
+                    lowest_number = all(std::numeric_limits<T>::lowest());
         Lanes at[3][4];
         Lanes least_w = largest_number, most_w = lowest_number;
         std::uint32_t sound = batch.sound;
         batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
-            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]), z = Lanes::load(batch.vertex[i][2]);
+            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]),
+                        z = Lanes::load(batch.vertex[i][2]);
             Lanes const away = absolute(x) + absolute(y) + absolute(z);
             sound &= at_least(all(farthest_vertex<T>), away);
             batch.reach = most(batch.reach, away);
@@ -268,14 +275,16 @@ struct TraceKernel {
         }
         // What rounding may add, so that no texel is missed.
         Lanes const steepest = reciprocal(most(least_w, floor));
-        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
+        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)),
+                                all(T(1) / T(128)));
         lo_x = lo_x - pad;
         hi_x = hi_x + pad;
         lo_y = lo_y - pad;
         hi_y = hi_y + pad;
         depth = depth - steepest * fused(batch.reach, all(buffer.depth_error), all(buffer.depth_error_here));
-        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) & at_least(all(buffer.most_y), lo_y) &
-                 at_least(hi_y, all(buffer.least_y)) & at_least(all(buffer.most_depth), depth);
+        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) &
+                 at_least(all(buffer.most_y), lo_y) & at_least(hi_y, all(buffer.least_y)) &
+                 at_least(all(buffer.most_depth), depth);
         lo_x.store(batch.bounds[0]);
         hi_x.store(batch.bounds[1]);
         lo_y.store(batch.bounds[2]);
@@ -289,9 +298,13 @@ struct TraceKernel {
         PixelFrame<T> const& frame = buffer.frame;
         Triple<Lanes> p[3];
         for (int i = 0; i < 3; ++i) {
-            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]), Lanes::load(batch.vertex[i][2])};
-            auto const along = [&](Vec3<T> const& axis) { return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v); };
-            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
+            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]),
+                                  Lanes::load(batch.vertex[i][2])};
+            auto const along = [&](Vec3<T> const& axis) {
+                return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v);
+            };
+            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y),
+                    along(frame.to_inward)};
         }
         Lanes const metres = all(contact_share<T>) * (batch.reach + all(T(1) + buffer.contact_reach));
         ShadowVolume<Lanes> const volume =
@@ -365,7 +378,8 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     detail::TraceKernel<Lanes> const kernel{buffer, casters, Lanes::load(column), Lanes::load(row), w_floor};
     typename detail::TraceKernel<Lanes>::Batch batch;
     for (std::uint32_t done = 0; done < count;) {
-        std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
+        std::uint32_t const block =
+            count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
         kernel.run_block(first + done, block, batch);
         done += block;
     }
@@ -383,7 +397,8 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
             std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
             continue;
         }
-        std::uint32_t const* in = buffer.mask + static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
+        std::uint32_t const* in = buffer.mask +
+                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
                                   row % tile_side * tile_side;
         for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
             int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
