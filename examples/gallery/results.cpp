@@ -154,6 +154,7 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
           {"height", settings.extent.height},
           {"quick", settings.quick},
           {"seed", settings.seed},
+          {"way_runs", settings.way_runs()},
           {"filter_radius", filter_radius},
           {"edge_radius_pixels", 1.25}}},
         {"techniques", list(techniques(settings.quick))},

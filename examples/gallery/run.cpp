@@ -86,10 +86,11 @@ public:
 
     // Of four stable cascades.
     [[nodiscard]] std::vector<WayRecord> ways(backend::Backend& backend) const {
-        Technique const cascades{.id = "cascades-4-stable"};
-        MapSet const maps = fit(cascades, scene_, view_, settings_.extent);
+        std::vector<Technique> const all = techniques(true);
+        auto const cascades = std::ranges::find(all, "cascades-4-stable", &Technique::id);
+        MapSet const maps = fit(*cascades, scene_, view_, settings_.extent);
         SplitObjects const shown = objects_in_splits(maps, scene_, view_, settings_.extent);
-        auto records = measure_ways(backend, maps, shown, settings_.extent, settings_.quick ? 2 : 4);
+        auto records = measure_ways(backend, maps, shown, settings_.extent, settings_.way_runs());
         for (WayRecord& record : records) {
             record.scene = scene_.name;
             record.view = view_.name;
