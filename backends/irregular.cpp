@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t group_size = 64, groups_across = 65535, large_groups = 1024;
 constexpr std::size_t counter_words = 5;        // Grid's members before its words
-constexpr std::size_t triangle_count_at = 296;  // bytes; the block's tail: triangle_count, vertex_count, node_capacity
-constexpr std::size_t block_bytes = 320;
+constexpr std::size_t triangle_count_at = 312;  // bytes; the block's tail: triangle_count, vertex_count, node_capacity
+constexpr std::size_t block_bytes = 336;
 
 // Texels of all levels, each a quarter as wide as the one before it, and their blocks of 4 x 4.
 std::size_t words_of(int map_size) {
@@ -36,7 +36,7 @@ IrregularPasses::IrregularPasses(ComputeRunner& runner, IrregularSize const& siz
     if (size_.node_capacity == 0) size_.node_capacity = std::uint32_t(4 * pixel_count_);
     word_count_ = words_of(size.map_size);
     receivers_ = runner.make_storage(24 * pixel_count_);
-    quads_ = runner.make_storage(12 * pixel_count_);
+    quads_ = runner.make_storage(16 * pixel_count_);
     masks_ = runner.make_storage(4 * pixel_count_);
     grid_ = runner.make_storage(4 * (counter_words + word_count_));
     nodes_ = runner.make_storage(8 * std::size_t(size_.node_capacity));
@@ -64,7 +64,7 @@ Dispatch IrregularPasses::pass(shaders::Shader const& shader, std::size_t invoca
 
 IrregularWork IrregularPasses::trace(std::span<std::byte const> constants) {
     if (constants.size() != block_bytes)
-        throw std::runtime_error("the constants of an irregular z-buffer are 320 bytes");
+        throw std::runtime_error("the constants of an irregular z-buffer are 336 bytes");
     if (vertex_count_ == 0 && triangle_count_ == 0) set_casters({}, {});
     constants_.assign(constants.begin(), constants.end());
     std::array<std::uint32_t, 3> const counts{triangle_count_, vertex_count_, size_.node_capacity};

@@ -28,7 +28,7 @@ layout(std430, binding = 1) readonly buffer Receivers {
     float receiver[];  // six a pixel: world position, normal of the surface (0: sky)
 };
 layout(std430, binding = 2) buffer Quads {
-    float quads[];  // three a pixel
+    vec4 quads[];
 };
 layout(std430, binding = 3) buffer Masks {
     uint masks[];  // bit i: sample i is dark
@@ -50,6 +50,11 @@ layout(std430, binding = 6) readonly buffer Vertices {
 layout(std430, binding = 7) buffer Triangles {
     uint triangles[];  // three indices each, then room for all that are large
 };
+
+sm_MicroQuad quad_of(uint pixel) {
+    vec4 quad = quads[pixel];
+    return sm_MicroQuad(quad.x, quad.y, quad.z, quad.w, true);
+}
 
 const int most_levels = 8;
 const float huge = 3.0e38;

@@ -32,12 +32,10 @@ void main() {
         masks[pixel] = sm_every_sample;
         return;
     }
-    quads[3u * pixel] = quad.q;
-    quads[3u * pixel + 1u] = quad.q_x;
-    quads[3u * pixel + 2u] = quad.q_y;
+    quads[pixel] = vec4(quad.q, quad.q_rest, quad.q_x, quad.q_y);
 
     bool flat_eye = frame.orthographic != 0;
-    vec4 corner = sm_tile_corner(frame, at);
+    vec2 corner = sm_pixel_corner(frame, at);
     vec2 lo = vec2(huge);
     vec2 hi = vec2(-huge);
     vec2 w_range = vec2(huge, 0.0);

@@ -8,7 +8,7 @@
 #include "irregular_buffers.glsl"
 
 struct Caster {
-    vec4 planes[4];
+    dvec4 planes[4];
     vec3 edges[3];  // in texels of the finest level: x X + y Y + c >= 0 inside
     bool has_edges; // false: clipped, or of no area in the map; its bounds must do
     vec4 bounds;    // lo x, lo y, hi x, hi y
@@ -19,18 +19,19 @@ struct Caster {
 Caster caster_of(uint triangle) {
     Caster caster;
     caster.casts = false;
-    vec3 p[3];
+    dvec3 p[3];
+    sm_ExactFrame exact = sm_exact_frame(frame, light);
     vec4 at[3];
     float away = 0.0;
     for (int i = 0; i < 3; ++i) {
         uint vertex = triangles[3u * triangle + uint(i)];
         if (vertex >= vertex_count) return caster;
-        precise vec3 from_eye =
-            vec3(vertices[3u * vertex], vertices[3u * vertex + 1u], vertices[3u * vertex + 2u]) - frame.eye;
+        vec3 point = vec3(vertices[3u * vertex], vertices[3u * vertex + 1u], vertices[3u * vertex + 2u]);
+        precise vec3 from_eye = point - frame.eye;
         float size = abs(from_eye.x) + abs(from_eye.y) + abs(from_eye.z);
         if (!(size <= 1e9)) return caster;
         away = max(away, size);
-        p[i] = sm_from_eye_in_pixels(frame, from_eye);
+        p[i] = sm_point_in_pixels(exact, point);
         for (int r = 0; r < 4; ++r) {
             precise float value = sm_dot(row[r].xyz, from_eye) + row[r].w;
             at[i][r] = value;
@@ -82,8 +83,8 @@ Caster caster_of(uint triangle) {
         caster.edges[i].z += (abs(n.x * corners[i].x) + abs(n.y * corners[i].y)) * 1e-6 +
                              (abs(n.x) + abs(n.y)) * float(map_size) * 1e-6;
     }
-    precise float metres = contact_share * (away + (1.0 + contact_metres));
-    caster.casts = sm_shadow_volume(frame, light, p, metres, contact_share * ray, caster.planes);
+    precise double metres = double(contact_share) * (double(away) + (1.0LF + double(contact_metres)));
+    caster.casts = sm_shadow_volume(exact, p, metres, double(contact_share) * double(ray), caster.planes);
     return caster;
 }
 
@@ -103,9 +104,8 @@ bool meets(Caster caster, ivec2 texel, int level) {
 void darken(Caster caster, uint pixel) {
     uint known = masks[pixel];
     if (known == sm_every_sample) return;
-    sm_MicroQuad quad = sm_MicroQuad(quads[3u * pixel], quads[3u * pixel + 1u], quads[3u * pixel + 2u], true);
     ivec2 at = ivec2(int(pixel) % frame.width, int(pixel) / frame.width);
-    uint dark = sm_occluded(caster.planes, sm_tile_corner(frame, at), quad);
+    uint dark = sm_occluded(caster.planes, sm_pixel_corner(frame, at), quad_of(pixel));
     if ((dark & ~known) != 0u) atomicOr(masks[pixel], dark);
 }
 

@@ -191,6 +191,7 @@ void Device::find_abilities() {
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     abilities_.geometry_shader = features.features.geometryShader == VK_TRUE;
     abilities_.layer_from_vertex_shader = has_extension(physical_, VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);
+    abilities_.doubles = features.features.shaderFloat64 == VK_TRUE;
     abilities_.statistics = features.features.pipelineStatisticsQuery == VK_TRUE;
     abilities_.views_at_once = multiview.multiview == VK_TRUE ? views.maxMultiviewViewCount : 0u;
 }
@@ -205,6 +206,7 @@ void Device::make_device() {
     VkPhysicalDeviceFeatures features{};
     features.depthClamp = VK_TRUE;
     features.geometryShader = abilities_.geometry_shader ? VK_TRUE : VK_FALSE;
+    features.shaderFloat64 = abilities_.doubles ? VK_TRUE : VK_FALSE;
     features.pipelineStatisticsQuery = abilities_.statistics ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceMultiviewFeatures multiview{};
     multiview.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES;

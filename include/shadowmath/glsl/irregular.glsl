@@ -3,8 +3,8 @@
 // Exact hard shadows in a shader: a pixel as a piece of plane, the shadow volume of a triangle as four half planes of
 // that pixel, and which of its 32 samples they hold. The GLSL twin of irregular/microquad.hpp, edge.hpp and mask.hpp;
 // every sum in its order written out and kept, so that both triangles at an edge see opposite values to the last bit.
-// Equal to the C++ bit for bit where that fuses no operations (lanes.hpp) and the driver divides as IEEE 754 does; else
-// samples differ that lie on an edge to within rounding, some twenty in a million of triangles below a pixel.
+// Where large terms cancel it sums in double, as the C++ does; samples may differ from the C++ that lie on an edge to
+// within a float's rounding.
 #ifndef SM_IRREGULAR_GLSL
 #define SM_IRREGULAR_GLSL
 
@@ -39,10 +39,13 @@ struct sm_PixelFrame {
 struct sm_PixelLight {
     vec3 at;
     int parallel;
+    vec3 source;  // world: how it travels, or where it stands
+    float unused;
 };
 
 struct sm_MicroQuad {
     float q;
+    float q_rest;  // what its rounding left out
     float q_x;
     float q_y;
     bool ok;
@@ -63,27 +66,16 @@ vec2 sm_pixel_sample(int i) {
 vec2 sm_pixel_corner(sm_PixelFrame frame, ivec2 pixel) {
     return vec2(pixel) - vec2(frame.width, frame.height) * 0.5;
 }
-// The same of the tile of 4 x 4 pixels that it is in, and where it is there: the C++ sums in this order.
-vec4 sm_tile_corner(sm_PixelFrame frame, ivec2 pixel) {
-    return vec4(sm_pixel_corner(frame, pixel & ~3), vec2(pixel & 3));
-}
-
 // A world normal as a covector of the pixel frame.
 vec3 sm_normal_in_pixels(sm_PixelFrame frame, vec3 normal) {
     return vec3(sm_inner(frame.across, normal), sm_inner(frame.upward, normal), sm_inner(frame.inward, normal));
-}
-
-vec3 sm_from_eye_in_pixels(sm_PixelFrame frame, vec3 from_eye) {
-    precise vec3 at = vec3(sm_inner(frame.to_across, from_eye) - frame.origin_x,
-                           sm_inner(frame.to_upward, from_eye) - frame.origin_y, sm_inner(frame.to_inward, from_eye));
-    return at;
 }
 
 // The piece of the plane through `depth` in the middle of the pixel; n is the normal in pixels. Not ok for sky: a normal
 // of no length, a depth that is not positive before an eye of perspective, or anything that is not finite.
 sm_MicroQuad sm_micro_quad(sm_PixelFrame frame, ivec2 pixel, float depth, vec3 n) {
     bool flat_eye = frame.orthographic != 0;
-    sm_MicroQuad none = sm_MicroQuad(0.0, 0.0, 0.0, false);
+    sm_MicroQuad none = sm_MicroQuad(0.0, 0.0, 0.0, 0.0, false);
     if (!sm_all_finite(depth) || !sm_all_finite(n) || (!flat_eye && !(depth >= sm_least_normal))) return none;
     vec2 middle = sm_pixel_corner(frame, pixel) + 0.5;
     precise float facing = flat_eye ? -n.z : n.x * middle.x + (n.y * middle.y + n.z);
@@ -94,8 +86,12 @@ sm_MicroQuad sm_micro_quad(sm_PixelFrame frame, ivec2 pixel, float depth, vec3 n
     precise float scale = 1.0 / (flat_eye ? divisor : divisor * depth);
     precise float q_x = n.x * scale;
     precise float q_y = n.y * scale;
-    precise float q = (flat_eye ? depth : divisor * scale) - (q_x + q_y) * 0.5;
-    return sm_MicroQuad(q, q_x, q_y, sm_all_finite(q) && sm_all_finite(q_x) && sm_all_finite(q_y));
+    precise float to_corner = (q_x + q_y) * 0.5;
+    // divisor * scale is one over the depth, whatever the plane was turned to.
+    precise double exact = (flat_eye ? double(depth) : 1.0LF / double(depth)) - double(to_corner);
+    float q = float(exact);
+    precise float rest = float(exact - double(q));
+    return sm_MicroQuad(q, rest, q_x, q_y, sm_all_finite(q) && sm_all_finite(q_x) && sm_all_finite(q_y));
 }
 
 // True where light and eye are on the same side of the pixel's surface.
@@ -113,44 +109,99 @@ bool sm_faces_light(sm_PixelFrame frame, sm_PixelLight light, ivec2 pixel, float
            (travel <= -sm_least_normal && toward_middle <= -sm_least_normal);
 }
 
-vec4 sm_pixel_plane(sm_PixelFrame frame, vec3 n, float offset) {
-    return frame.orthographic != 0 ? vec4(n.xy, offset, n.z) : vec4(n, offset);
+// The frame and the light as shadow volumes need them: sums in them cancel, and a float would be left with noise.
+struct sm_ExactFrame {
+    dvec3 eye;
+    dvec3 origin;
+    dvec3 to_across;
+    dvec3 to_upward;
+    dvec3 to_inward;
+    dvec3 light;
+    bool parallel;
+    bool orthographic;
+};
+
+double sm_inner(dvec3 a, dvec3 b) {
+    precise double sum = a.x * b.x + (a.y * b.y + a.z * b.z);
+    return sum;
+}
+dvec3 sm_cross(dvec3 a, dvec3 b) {
+    precise dvec3 c = dvec3(a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y);
+    return c;
+}
+
+dvec3 sm_direction_in_pixels(sm_ExactFrame frame, dvec3 v) {
+    return dvec3(sm_inner(frame.to_across, v), sm_inner(frame.to_upward, v), sm_inner(frame.to_inward, v));
+}
+dvec3 sm_point_in_pixels(sm_ExactFrame frame, vec3 point) {
+    precise dvec3 at = sm_direction_in_pixels(frame, dvec3(point) - frame.eye) - frame.origin;
+    return at;
+}
+
+sm_ExactFrame sm_exact_frame(sm_PixelFrame frame, sm_PixelLight light) {
+    dvec3 across = dvec3(frame.across);
+    dvec3 upward = dvec3(frame.upward);
+    dvec3 inward = dvec3(frame.inward);
+    dvec3 normal = sm_cross(across, upward);
+    double volume = sm_inner(normal, inward);
+    sm_ExactFrame exact;
+    exact.eye = dvec3(frame.eye);
+    exact.origin = dvec3(frame.origin_x, frame.origin_y, 0.0);
+    exact.to_across = sm_cross(upward, inward) / volume;
+    exact.to_upward = sm_cross(inward, across) / volume;
+    exact.to_inward = normal / volume;
+    exact.parallel = light.parallel != 0;
+    exact.orthographic = frame.orthographic != 0;
+    exact.light = exact.parallel ? sm_direction_in_pixels(exact, dvec3(light.source))
+                                 : sm_point_in_pixels(exact, light.source);
+    return exact;
+}
+
+dvec4 sm_pixel_plane(sm_ExactFrame frame, dvec3 n, double offset) {
+    return frame.orthographic ? dvec4(n.xy, offset, n.z) : dvec4(n, offset);
 }
 
 // The four half spaces of a triangle's shadow: its own plane, then one through the light and each edge; x, y, a, b as in
 // irregular/microquad.hpp. Vertices in pixels. False where it has no area as seen from the light: it casts nothing.
-bool sm_shadow_volume(sm_PixelFrame frame, sm_PixelLight light, vec3 p[3], float margin_metres, float margin_share,
-                      out vec4 planes[4]) {
-    precise vec3 first = p[1] - p[0];
-    precise vec3 second = p[2] - p[0];
-    precise vec3 source = p[0] - light.at;
-    vec3 normal = sm_cross(first, second);
-    precise float along = sm_inner(normal, light.parallel != 0 ? light.at : source);
-    float turn = along < 0.0 ? -1.0 : 1.0;
-    vec3 facing = normal * turn;
-    precise vec3 in_world = frame.to_across * facing.x + (frame.to_upward * facing.y + frame.to_inward * facing.z);
-    precise float unit = abs(in_world.x) + abs(in_world.y) + abs(in_world.z);
-    precise float lifted = facing.z - unit * margin_share;
-    precise float offset = -(unit * margin_metres + sm_inner(facing, p[0]));
-    planes[0] = sm_pixel_plane(frame, vec3(facing.xy, lifted), offset);
+bool sm_shadow_volume(sm_ExactFrame frame, dvec3 p[3], double margin_metres, double margin_share,
+                      out dvec4 planes[4]) {
+    precise dvec3 first = p[1] - p[0];
+    precise dvec3 second = p[2] - p[0];
+    precise dvec3 source = p[0] - frame.light;
+    dvec3 normal = sm_cross(first, second);
+    double along = sm_inner(normal, frame.parallel ? frame.light : source);
+    double turn = along < 0.0LF ? -1.0LF : 1.0LF;
+    dvec3 facing = normal * turn;
+    precise dvec3 in_world =
+        frame.to_across * facing.x + (frame.to_upward * facing.y + frame.to_inward * facing.z);
+    precise double unit = abs(in_world.x) + abs(in_world.y) + abs(in_world.z);
+    precise double lifted = facing.z - unit * margin_share;
+    precise double offset = -(unit * margin_metres + sm_inner(facing, p[0]));
+    planes[0] = sm_pixel_plane(frame, dvec3(facing.xy, lifted), offset);
     for (int i = 0; i < 3; ++i) {
-        vec3 from = p[i];
-        vec3 to = p[(i + 1) % 3];
-        precise vec3 both = from + to;
-        precise vec3 beyond = both - light.at * 2.0;
-        precise vec3 edge = (to - from) * turn;
-        vec3 n = sm_cross(light.parallel != 0 ? light.at : beyond, edge);
-        precise float c = sm_inner(n, both) * -0.5;
+        dvec3 from = p[i];
+        dvec3 to = p[(i + 1) % 3];
+        precise dvec3 both = from + to;
+        precise dvec3 beyond = both - frame.light * 2.0LF;
+        precise dvec3 edge = (to - from) * turn;
+        dvec3 n = sm_cross(frame.parallel ? frame.light : beyond, edge);
+        precise double c = sm_inner(n, both) * -0.5LF;
         planes[1 + i] = sm_pixel_plane(frame, n, c);
     }
-    return abs(along) >= sm_least_normal;
+    return abs(along) >= double(sm_least_normal);
 }
 
 // c + x u + y v >= 0 inside, u and v from 0 to 1 over the pixel.
-// `corner` is the pixel's sm_tile_corner.
-vec3 sm_line_across(vec4 plane, vec4 corner, sm_MicroQuad quad) {
-    precise float tile = plane.x * corner.x + plane.y * corner.y + plane.z;
-    precise float c = plane.w * quad.q + (plane.y * corner.w + (plane.x * corner.z + tile));
+vec3 sm_line_across(dvec4 plane, vec2 corner, sm_MicroQuad quad) {
+    precise double q = double(quad.q) + double(quad.q_rest);
+    // Here large terms cancel.
+    precise double c = plane.x * double(corner.x) + plane.y * double(corner.y) + (plane.z + plane.w * q);
+    precise float x = float(plane.x) + float(plane.w) * quad.q_x;
+    precise float y = float(plane.y) + float(plane.w) * quad.q_y;
+    return vec3(float(c), x, y);
+}
+vec3 sm_line_across(vec4 plane, vec2 corner, sm_MicroQuad quad) {
+    precise float c = plane.x * corner.x + plane.y * corner.y + (plane.z + plane.w * quad.q);
     precise float x = plane.x + plane.w * quad.q_x;
     precise float y = plane.y + plane.w * quad.q_y;
     return vec3(c, x, y);
@@ -168,7 +219,7 @@ uint sm_half_plane_mask(vec3 line) {
 }
 
 // The samples of a pixel that the triangle with these planes takes the light of.
-uint sm_occluded(vec4 planes[4], vec4 corner, sm_MicroQuad quad) {
+uint sm_occluded(dvec4 planes[4], vec2 corner, sm_MicroQuad quad) {
     vec3 lines[4];
     bool covered = true;
     for (int i = 0; i < 4; ++i) {

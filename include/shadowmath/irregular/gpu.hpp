@@ -43,6 +43,8 @@ struct GpuIrregular {
     GpuPixelFrame frame;
     Vec3<float> light_at{0.0f};
     std::int32_t parallel = 1;
+    Vec3<float> source{0.0f};  // world: how the light travels, or where it stands
+    float unused_light = 0.0f;
     Vec4<float> row[4]{};
     Vec4<float> seen[4]{};
     float texel_error = 0.0f;
@@ -61,20 +63,21 @@ struct GpuIrregular {
     std::uint32_t unused[3] = {};
 };
 static_assert(offsetof(GpuIrregular, light_at) == 112 && offsetof(GpuIrregular, parallel) == 124);
-static_assert(offsetof(GpuIrregular, row) == 128 && offsetof(GpuIrregular, seen) == 192);
-static_assert(offsetof(GpuIrregular, texel_error) == 256 && offsetof(GpuIrregular, ray) == 272);
-static_assert(offsetof(GpuIrregular, w_min) == 288 && offsetof(GpuIrregular, node_capacity) == 304);
-static_assert(sizeof(GpuIrregular) == 320);
+static_assert(offsetof(GpuIrregular, source) == 128);
+static_assert(offsetof(GpuIrregular, row) == 144 && offsetof(GpuIrregular, seen) == 208);
+static_assert(offsetof(GpuIrregular, texel_error) == 272 && offsetof(GpuIrregular, ray) == 288);
+static_assert(offsetof(GpuIrregular, w_min) == 304 && offsetof(GpuIrregular, node_capacity) == 320);
+static_assert(sizeof(GpuIrregular) == 336);
 
 // Faults leave `gpu` as it was: those of the frame and the light, bad_projection where the grid is not a map of this
-// light, map_too_small for a grid outside [1, 2^14].
+// light, map_too_small for a grid outside [1, largest_grid].
 [[nodiscard]] inline Faults gpu_irregular(PixelFrame<float> const& frame, Light<float> const& light,
                                           ShadowMap<float> const& grid, int map_size, GpuIrregular& gpu) noexcept {
     IrregularBuffer<float> buffer;
     buffer.frame = frame;
     buffer.map_size = map_size;
     Faults faults = frame.faults | faults_of(light);
-    if (map_size < 1 || map_size > 1 << 14) faults |= Fault::map_too_small;
+    if (map_size < 1 || map_size > largest_grid) faults |= Fault::map_too_small;
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
@@ -87,6 +90,7 @@ static_assert(sizeof(GpuIrregular) == 320);
                     frame.to_inward, 0.0f};
     filled.light_at = buffer.light.at;
     filled.parallel = buffer.light.parallel ? 1 : 0;
+    filled.source = buffer.light.parallel ? light.direction : light.position;
     for (int i = 0; i < 4; ++i) {
         PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
         filled.row[i] = buffer.row[i];

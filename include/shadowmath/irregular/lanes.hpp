@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #if defined(__AVX512F__) || (defined(__AVX2__) && defined(__FMA__))
 #if defined(__GNUC__) && !defined(__clang__)
@@ -34,16 +35,35 @@ inline namespace v0 {
 
 inline constexpr int lane_count = 16;
 
+namespace detail {
+
+template <class T>
+struct WiderThan {
+    using Type = T;
+};
+template <>
+struct WiderThan<float> {
+    using Type = double;
+};
+
+}  // namespace detail
+
+// What sums of float products are taken in, where their terms cancel; double and long double are their own.
+template <class T>
+using Wider = typename detail::WiderThan<T>::Type;
+
 template <class T>
 struct PlainLanes {
     using Scalar = T;
+    using Wide = PlainLanes<Wider<T>>;
     T lane[lane_count];
 
     [[nodiscard]] static PlainLanes all(T value) noexcept {
         return each([value](int) { return value; });
     }
-    [[nodiscard]] static PlainLanes load(T const* from) noexcept {
-        return each([from](int k) { return from[k]; });
+    template <class From>
+    [[nodiscard]] static PlainLanes load(From const* from) noexcept {
+        return each([from](int k) { return static_cast<T>(from[k]); });
     }
     void store(T* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
@@ -103,6 +123,16 @@ struct PlainLanes {
         for (int k = 1; k < lane_count; ++k) found = a.lane[k] > found ? a.lane[k] : found;
         return found;
     }
+    // Writes those of the sixteen words from `from` on whose bit is set, without gaps; the words behind them, up to
+    // sixteen in all, may be anything. Gives how many.
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        std::uint32_t count = 0;
+        for (std::uint32_t k = 0; k < lane_count; ++k) {
+            to[count] = from[k];
+            count += bits >> k & 1u;
+        }
+        return count;
+    }
     // Lanes of a where the bit is set, else those of b.
     friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {
         return each([&](int k) { return (bits >> k & 1u) != 0 ? a.lane[k] : b.lane[k]; });
@@ -111,8 +141,50 @@ struct PlainLanes {
 
 #if defined(__AVX512F__)
 
+// Sixteen doubles, for what is computed once a triangle.
+struct Avx512Doubles {
+    using Scalar = double;
+    __m512d first;
+    __m512d second;
+
+    [[nodiscard]] static Avx512Doubles all(double value) noexcept { return {_mm512_set1_pd(value), _mm512_set1_pd(value)}; }
+    [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
+        return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
+    }
+    void store(double* to) const noexcept {
+        _mm512_storeu_pd(to, first);
+        _mm512_storeu_pd(to + 8, second);
+    }
+
+    friend Avx512Doubles operator+(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_add_pd(a.first, b.first), _mm512_add_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles operator-(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_sub_pd(a.first, b.first), _mm512_sub_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles operator*(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_mul_pd(a.first, b.first), _mm512_mul_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles absolute(Avx512Doubles a) noexcept { return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)}; }
+    friend Avx512Doubles with_sign_of(Avx512Doubles magnitude, Avx512Doubles sign) noexcept {
+        __m512i const top = _mm512_set1_epi64(std::numeric_limits<std::int64_t>::min());
+        auto const signed_as = [top](__m512d m, __m512d s) {
+            return _mm512_castsi512_pd(_mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
+        };
+        return {signed_as(magnitude.first, sign.first), signed_as(magnitude.second, sign.second)};
+    }
+    friend Avx512Doubles fused(Avx512Doubles a, Avx512Doubles b, Avx512Doubles c) noexcept {
+        return {_mm512_fmadd_pd(a.first, b.first, c.first), _mm512_fmadd_pd(a.second, b.second, c.second)};
+    }
+    friend std::uint32_t at_least(Avx512Doubles a, Avx512Doubles b) noexcept {
+        std::uint32_t const low = _mm512_cmp_pd_mask(a.first, b.first, _CMP_GE_OQ);
+        return low | static_cast<std::uint32_t>(_mm512_cmp_pd_mask(a.second, b.second, _CMP_GE_OQ)) << 8;
+    }
+};
+
 struct Avx512Lanes {
     using Scalar = float;
+    using Wide = Avx512Doubles;
     __m512 lanes;
 
     [[nodiscard]] static Avx512Lanes all(float value) noexcept { return {_mm512_set1_ps(value)}; }
@@ -144,6 +216,11 @@ struct Avx512Lanes {
     }
     friend float smallest(Avx512Lanes a) noexcept { return _mm512_reduce_min_ps(a.lanes); }
     friend float largest(Avx512Lanes a) noexcept { return _mm512_reduce_max_ps(a.lanes); }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        __m512i const packed = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(from));
+        _mm512_storeu_si512(to, packed);
+        return static_cast<std::uint32_t>(_mm_popcnt_u32(bits));
+    }
     friend Avx512Lanes chosen(std::uint32_t bits, Avx512Lanes a, Avx512Lanes b) noexcept {
         return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.lanes, a.lanes)};
     }
@@ -155,6 +232,7 @@ struct Avx512Lanes {
 
 struct Avx2Lanes {
     using Scalar = float;
+    using Wide = PlainLanes<double>;
     __m256 first;
     __m256 second;
 
@@ -214,6 +292,9 @@ struct Avx2Lanes {
         __m128 const four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
         __m128 const two = _mm_max_ps(four, _mm_movehl_ps(four, four));
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)));
+    }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        return PlainLanes<float>::compress(bits, from, to);
     }
     friend Avx2Lanes chosen(std::uint32_t bits, Avx2Lanes a, Avx2Lanes b) noexcept {
         __m256i const lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);

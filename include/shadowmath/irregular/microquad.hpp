@@ -75,6 +75,28 @@ template <class T>
     return frame;
 }
 
+// The same in another scalar type: the three steps as they are, their inverse anew.
+template <class Real, class T>
+[[nodiscard]] inline PixelFrame<Real> frame_in(PixelFrame<T> const& frame) noexcept {
+    PixelFrame<Real> same;
+    same.eye = Vec3<Real>(frame.eye);
+    same.across = Vec3<Real>(frame.across);
+    same.upward = Vec3<Real>(frame.upward);
+    same.inward = Vec3<Real>(frame.inward);
+    same.origin = Vec2<Real>(frame.origin);
+    same.width = frame.width;
+    same.height = frame.height;
+    same.kind = frame.kind;
+    same.faults = frame.faults;
+    Vec3<Real> const normal = glm::cross(same.across, same.upward);
+    Real const volume = glm::dot(normal, same.inward);
+    if (volume == Real(0)) return same;
+    same.to_across = glm::cross(same.upward, same.inward) / volume;
+    same.to_upward = glm::cross(same.inward, same.across) / volume;
+    same.to_inward = normal / volume;
+    return same;
+}
+
 // A direction, or a point relative to a perspective eye.
 template <class T>
 [[nodiscard]] inline Vec3<T> direction_in_pixels(PixelFrame<T> const& frame, Vec3<T> const& v) noexcept {
