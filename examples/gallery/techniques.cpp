@@ -78,7 +78,6 @@ void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<
     MapBias<double> const bias = bias_for(map, in.light, in.map_size, options);
     MapConstants& constants = set.frame.maps[set.maps.size()];
     constants.clip_from_world = glm::mat4(map.clip_from_world);
-    constants.depth_begin = float(range.begin);
     constants.depth_end = float(range.end);
     constants.blend_begin = float(range.blend_begin);
     constants.w_min = float(map.w_min);

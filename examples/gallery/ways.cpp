@@ -4,6 +4,7 @@
 #include "examples/gallery/parity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -19,6 +20,11 @@ using backend::Image;
 using backend::Rgba8;
 using backend::ScenePass;
 
+constexpr std::array every_count{&DriverCount::vertices,           &DriverCount::triangles,
+                                 &DriverCount::vertex_runs,        &DriverCount::geometry_runs,
+                                 &DriverCount::geometry_triangles, &DriverCount::clipper_triangles,
+                                 &DriverCount::raster_triangles};
+
 // One pass and then another.
 DrawWork sum(DrawWork a, DrawWork const& b) {
     a.milliseconds += b.milliseconds;
@@ -28,10 +34,7 @@ DrawWork sum(DrawWork a, DrawWork const& b) {
     a.triangles += b.triangles;
     if (!b.driver) a.driver.reset();
     if (!a.driver) return a;
-    for (auto const count : {&DriverCount::vertices, &DriverCount::triangles, &DriverCount::vertex_runs,
-                             &DriverCount::geometry_runs, &DriverCount::geometry_triangles,
-                             &DriverCount::clipper_triangles, &DriverCount::raster_triangles})
-        *a.driver.*count += *b.driver.*count;
+    for (auto const count : every_count) *a.driver.*count += *b.driver.*count;
     return a;
 }
 
@@ -46,7 +49,8 @@ struct Way {
     std::function<DrawWork()> draw;
 };
 
-void compare_maps(WayRecord& record, std::vector<Image<float>> const& expected, std::vector<Image<float>> const& drawn) {
+void compare_maps(WayRecord& record, std::vector<Image<float>> const& expected,
+                  std::vector<Image<float>> const& drawn) {
     for (std::size_t map = 0; map < expected.size(); ++map)
         for (std::size_t i = 0; i < expected[map].pixels.size(); ++i) {
             double const difference = std::fabs(double(drawn[map].pixels[i]) - double(expected[map].pixels[i]));
@@ -109,8 +113,9 @@ std::vector<WayRecord> measure_ways(Backend& backend, MapSet const& set, SplitOb
     for (DrawWay const way : backend.ways()) {
         add(name_of(way), false, all_maps, [&, way] { return last = backend.draw_depth(maps(way)); });
         if (way == DrawWay::pass_per_map)
-            add("all maps, then the picture", true, all_maps,
-                [&] { return sum(last, backend.draw_scene({extent, picture.frame})); });
+            add("all maps, then the picture", true, all_maps, [&] {
+                return sum(last, backend.draw_scene({extent, picture.frame}));
+            });
     }
     add("split by split", true, 1, [&] { return backend.draw_split_by_split(maps(DrawWay::pass_per_map), picture); });
 

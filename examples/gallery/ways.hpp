@@ -30,7 +30,7 @@ struct WayRecord {
 // The ways that the backend has, one pass a map first; then, with the picture, all maps at once and split by split.
 // Nothing where the set has no map. The maps are chosen by depth and not blended, for split by split can do no other.
 // The scene of the maps must be there.
-[[nodiscard]] std::vector<WayRecord> measure_ways(backend::Backend& backend, MapSet const& set, SplitObjects const& shown,
-                                                  backend::Extent extent, int runs);
+[[nodiscard]] std::vector<WayRecord> measure_ways(backend::Backend& backend, MapSet const& set,
+                                                  SplitObjects const& shown, backend::Extent extent, int runs);
 
 }  // namespace shadowmath::gallery

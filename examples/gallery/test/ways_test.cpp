@@ -2,8 +2,8 @@
 //
 // The table's figures are the passes' own, and a map or picture that is unlike is counted. A backend stands in that
 // draws nothing, but takes its time and may err.
-#include "backends/null/null_backend.hpp"
 #include "examples/gallery/ways.hpp"
+#include "backends/null/null_backend.hpp"
 #include "scenes/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -120,9 +120,8 @@ TEST_F(Ways, CountPixelsOfAnotherColour) {
 
 TEST_F(Ways, WithThePictureAddThePassesUp) {
     WayRecord const& both = of("all maps, then the picture");
-    DrawWork const picture = backend.draw_scene({extent, set.frame});
     EXPECT_EQ(both.work.passes, records.front().work.passes + 1);
-    EXPECT_EQ(both.work.vertices, records.front().work.vertices + picture.vertices);
+    EXPECT_EQ(both.work.vertices, records.front().work.vertices + named.scene.indices.size());
     ASSERT_TRUE(both.work.driver);
     EXPECT_EQ(both.work.driver->vertex_runs, both.work.vertices);
 }
@@ -156,7 +155,8 @@ TEST_F(Ways, ObjectsShowInEverySplitThatTheirBoxesReachInto) {
         return object;
     };
     backend::Scene scene;
-    scene.objects = {object_at(5.0f, 6.0f), object_at(18.0f, 22.0f), object_at(50.0f, 60.0f), object_at(-60.0f, -50.0f)};
+    scene.objects = {object_at(5.0f, 6.0f), object_at(18.0f, 22.0f), object_at(50.0f, 60.0f),
+                     object_at(-60.0f, -50.0f)};
     SplitObjects const shown = objects_in_splits(set, scene, view, extent);
     ASSERT_EQ(shown.size(), 2u);
     EXPECT_EQ(shown[0], (std::vector<std::uint32_t>{0, 1}));
