@@ -69,11 +69,10 @@ enum class MapChoice : std::int32_t {
     by_map = 1,    // the first map that holds the point, filter margin included; none: lit
 };
 
-// What the receiver shader knows of one map. The layout is std140: sixteen-byte members only.
-struct MapConstants {
+// What the receiver shader knows of one map. The layout is std140, where each begins at a multiple of sixteen bytes.
+struct alignas(16) MapConstants {
     glm::mat4 clip_from_world{1.0f};  // the matrix that the layer was drawn with
-    float depth_begin = 0.0f;         // eye depth in metres where the map starts to serve (by_depth)
-    float depth_end = 0.0f;           // eye depth in metres where it stops (by_depth)
+    float depth_end = 0.0f;           // eye depth in metres where it stops to serve and the next begins (by_depth)
     float blend_begin = 0.0f;         // eye depth from which it blends into the next map; >= depth_end: no blending
     float w_min = 0.0f;               // clip w at or below this: the map does not hold the point
     float bias_constant = 0.0f;       // depth (of [0, 1]) subtracted from every receiver depth
@@ -189,9 +188,9 @@ public:
     virtual DrawWork draw_scene(ScenePass const& pass) = 0;
 
     // Both in turns, with memory for one map (Zhang, Sun, Nyman 2007, 10.3.1): each map is drawn over the last, and at
-    // once the receivers between its depth_begin and depth_end, clipped there. It leaves the picture of draw_depth and
-    // draw_scene, but for pixels at the borders and those that blend, for no second map is there; and the last map, as
-    // layer 0. The maps are chosen by depth. The way of the pass is of no account.
+    // once the receivers between the depth_end of the map before and its own, clipped there. It leaves the picture of
+    // draw_depth and draw_scene, but for pixels at the borders and those that blend, for no second map is there; and
+    // the last map, as layer 0. The maps are chosen by depth. The way of the pass is of no account.
     virtual DrawWork draw_split_by_split(DepthPass const& maps, ScenePass const& view) = 0;
 
     virtual DrawWork fit_maps(FitPass const& pass) = 0;  // the eye sees all objects

@@ -83,7 +83,6 @@ void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<
     MapBias<double> const bias = bias_for(map, in.light, in.map_size, options);
     MapConstants& constants = set.frame.maps[set.maps.size()];
     constants.clip_from_world = glm::mat4(map.clip_from_world);
-    constants.depth_begin = float(range.begin);
     constants.depth_end = float(range.end);
     constants.blend_begin = float(range.blend_begin);
     constants.w_min = float(map.w_min);
@@ -130,13 +129,18 @@ ShadowMap<double> standard_map(Input const& in) {
     return map;
 }
 
-// Height of the ground for the thesis' shadow plane: the median foot of the objects in view.
-double ground_height(Input const& in) {
+// What shows is what would be drawn into a map that looks as the eye does.
+CasterMaps<double> screen_of(View3 const& view) {
     ShadowMap<double> screen;
-    screen.clip_from_world = clip_from_world(in.seen, clip);
+    screen.clip_from_world = clip_from_world(view, clip);
     screen.clip = clip;
     screen.visible = true;
-    CasterMaps<double> const seen = caster_maps(&screen, 1);
+    return caster_maps(&screen, 1);
+}
+
+// Height of the ground for the thesis' shadow plane: the median foot of the objects in view.
+double ground_height(Input const& in) {
+    CasterMaps<double> const seen = screen_of(in.seen);
     std::vector<double> feet;
     for (auto const& object : in.scene.objects)
         if (object.receives && caster_mask(seen, box_of(object)) != 0) feet.push_back(double(object.lo.y));
@@ -364,6 +368,28 @@ MapSet fit(Technique const& technique, Scene const& scene, View const& view, bac
     for (Entry const& entry : entries())
         if (entry.technique.id == technique.id) entry.make(set, in);
     return set;
+}
+
+SplitObjects objects_in_splits(MapSet const& set, Scene const& scene, View const& view, backend::Extent extent) {
+    View3 const eye = eye_of(view, extent);
+    CasterMaps<double> const screen = screen_of(eye);
+    SplitObjects shown(set.maps.size() + 1);
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        Aabb<double> const box = box_of(scene.objects[i]);
+        if (caster_mask(screen, box) == 0) continue;
+        double const middle = glm::dot(eye.pose.forward, 0.5 * (box.lo + box.hi) - eye.pose.position);
+        double const reach = glm::dot(glm::abs(eye.pose.forward), 0.5 * (box.hi - box.lo));
+        double begin = 0.0;
+        for (std::size_t split = 0; split < shown.size(); ++split) {
+            bool const is_last = split == set.maps.size();
+            double const end = is_last ? eye.z_far : double(set.frame.maps[split].depth_end);
+            constexpr double slack = 1e-2;  // the eye's depth buffer rounds an end by end / z_near * 2^-24 of it
+            if (middle - reach <= end * (1.0 + slack) && middle + reach >= begin * (1.0 - slack))
+                shown[split].push_back(i);
+            begin = end;
+        }
+    }
+    return shown;
 }
 
 }  // namespace shadowmath::gallery

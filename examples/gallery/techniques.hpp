@@ -56,6 +56,12 @@ struct MapSet {
 [[nodiscard]] MapSet fit(Technique const& technique, backend::Scene const& scene, scenes::View const& view,
                          backend::Extent extent, backend::Image<float> const& eye_depth = {});
 
+// Objects of the scene that show in each split of a view, by index, and last those beyond the last split.
+using SplitObjects = std::vector<std::vector<std::uint32_t>>;
+
+[[nodiscard]] SplitObjects objects_in_splits(MapSet const& set, backend::Scene const& scene, scenes::View const& view,
+                                             backend::Extent extent);
+
 // Kernel width of the receiver pass that all techniques share: 0, 1 or 2.
 inline constexpr int filter_radius = 1;
 
