@@ -7015,6 +7015,28 @@ template <class T>
     return frame;
 }
 
+// The same in another scalar type: the three steps as they are, their inverse anew.
+template <class Real, class T>
+[[nodiscard]] inline PixelFrame<Real> frame_in(PixelFrame<T> const& frame) noexcept {
+    PixelFrame<Real> same;
+    same.eye = Vec3<Real>(frame.eye);
+    same.across = Vec3<Real>(frame.across);
+    same.upward = Vec3<Real>(frame.upward);
+    same.inward = Vec3<Real>(frame.inward);
+    same.origin = Vec2<Real>(frame.origin);
+    same.width = frame.width;
+    same.height = frame.height;
+    same.kind = frame.kind;
+    same.faults = frame.faults;
+    Vec3<Real> const normal = glm::cross(same.across, same.upward);
+    Real const volume = glm::dot(normal, same.inward);
+    if (volume == Real(0)) return same;
+    same.to_across = glm::cross(same.upward, same.inward) / volume;
+    same.to_upward = glm::cross(same.inward, same.across) / volume;
+    same.to_inward = normal / volume;
+    return same;
+}
+
 // A direction, or a point relative to a perspective eye.
 template <class T>
 [[nodiscard]] inline Vec3<T> direction_in_pixels(PixelFrame<T> const& frame, Vec3<T> const& v) noexcept {
@@ -7145,16 +7167,35 @@ inline namespace v0 {
 
 inline constexpr int lane_count = 16;
 
+namespace detail {
+
+template <class T>
+struct WiderThan {
+    using Type = T;
+};
+template <>
+struct WiderThan<float> {
+    using Type = double;
+};
+
+}  // namespace detail
+
+// What sums of float products are taken in, where their terms cancel; double and long double are their own.
+template <class T>
+using Wider = typename detail::WiderThan<T>::Type;
+
 template <class T>
 struct PlainLanes {
     using Scalar = T;
+    using Wide = PlainLanes<Wider<T>>;
     T lane[lane_count];
 
     [[nodiscard]] static PlainLanes all(T value) noexcept {
         return each([value](int) { return value; });
     }
-    [[nodiscard]] static PlainLanes load(T const* from) noexcept {
-        return each([from](int k) { return from[k]; });
+    template <class From>
+    [[nodiscard]] static PlainLanes load(From const* from) noexcept {
+        return each([from](int k) { return static_cast<T>(from[k]); });
     }
     void store(T* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
@@ -7214,6 +7255,16 @@ struct PlainLanes {
         for (int k = 1; k < lane_count; ++k) found = a.lane[k] > found ? a.lane[k] : found;
         return found;
     }
+    // Writes those of the sixteen words from `from` on whose bit is set, without gaps; the words behind them, up to
+    // sixteen in all, may be anything. Gives how many.
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        std::uint32_t count = 0;
+        for (std::uint32_t k = 0; k < lane_count; ++k) {
+            to[count] = from[k];
+            count += bits >> k & 1u;
+        }
+        return count;
+    }
     // Lanes of a where the bit is set, else those of b.
     friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {
         return each([&](int k) { return (bits >> k & 1u) != 0 ? a.lane[k] : b.lane[k]; });
@@ -7222,8 +7273,50 @@ struct PlainLanes {
 
 #if defined(__AVX512F__)
 
+// Sixteen doubles, for what is computed once a triangle.
+struct Avx512Doubles {
+    using Scalar = double;
+    __m512d first;
+    __m512d second;
+
+    [[nodiscard]] static Avx512Doubles all(double value) noexcept { return {_mm512_set1_pd(value), _mm512_set1_pd(value)}; }
+    [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
+        return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
+    }
+    void store(double* to) const noexcept {
+        _mm512_storeu_pd(to, first);
+        _mm512_storeu_pd(to + 8, second);
+    }
+
+    friend Avx512Doubles operator+(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_add_pd(a.first, b.first), _mm512_add_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles operator-(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_sub_pd(a.first, b.first), _mm512_sub_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles operator*(Avx512Doubles a, Avx512Doubles b) noexcept {
+        return {_mm512_mul_pd(a.first, b.first), _mm512_mul_pd(a.second, b.second)};
+    }
+    friend Avx512Doubles absolute(Avx512Doubles a) noexcept { return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)}; }
+    friend Avx512Doubles with_sign_of(Avx512Doubles magnitude, Avx512Doubles sign) noexcept {
+        __m512i const top = _mm512_set1_epi64(std::numeric_limits<std::int64_t>::min());
+        auto const signed_as = [top](__m512d m, __m512d s) {
+            return _mm512_castsi512_pd(_mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
+        };
+        return {signed_as(magnitude.first, sign.first), signed_as(magnitude.second, sign.second)};
+    }
+    friend Avx512Doubles fused(Avx512Doubles a, Avx512Doubles b, Avx512Doubles c) noexcept {
+        return {_mm512_fmadd_pd(a.first, b.first, c.first), _mm512_fmadd_pd(a.second, b.second, c.second)};
+    }
+    friend std::uint32_t at_least(Avx512Doubles a, Avx512Doubles b) noexcept {
+        std::uint32_t const low = _mm512_cmp_pd_mask(a.first, b.first, _CMP_GE_OQ);
+        return low | static_cast<std::uint32_t>(_mm512_cmp_pd_mask(a.second, b.second, _CMP_GE_OQ)) << 8;
+    }
+};
+
 struct Avx512Lanes {
     using Scalar = float;
+    using Wide = Avx512Doubles;
     __m512 lanes;
 
     [[nodiscard]] static Avx512Lanes all(float value) noexcept { return {_mm512_set1_ps(value)}; }
@@ -7255,6 +7348,11 @@ struct Avx512Lanes {
     }
     friend float smallest(Avx512Lanes a) noexcept { return _mm512_reduce_min_ps(a.lanes); }
     friend float largest(Avx512Lanes a) noexcept { return _mm512_reduce_max_ps(a.lanes); }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        __m512i const packed = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(from));
+        _mm512_storeu_si512(to, packed);
+        return static_cast<std::uint32_t>(_mm_popcnt_u32(bits));
+    }
     friend Avx512Lanes chosen(std::uint32_t bits, Avx512Lanes a, Avx512Lanes b) noexcept {
         return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.lanes, a.lanes)};
     }
@@ -7266,6 +7364,7 @@ struct Avx512Lanes {
 
 struct Avx2Lanes {
     using Scalar = float;
+    using Wide = PlainLanes<double>;
     __m256 first;
     __m256 second;
 
@@ -7325,6 +7424,9 @@ struct Avx2Lanes {
         __m128 const four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
         __m128 const two = _mm_max_ps(four, _mm_movehl_ps(four, four));
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)));
+    }
+    static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
+        return PlainLanes<float>::compress(bits, from, to);
     }
     friend Avx2Lanes chosen(std::uint32_t bits, Avx2Lanes a, Avx2Lanes b) noexcept {
         __m256i const lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
@@ -7630,9 +7732,10 @@ template <class T>
 // may be the grid. It decides how long the lists are, and so the speed; the answer is the same for all.
 //
 // A node is a tile of 4 x 4 pixels, or a part of one where the tile straddles a silhouette, with bounds as the light
-// sees it. Each is listed in every texel that its footprint touches, at the level whose texels are as large as the
-// footprint: never more than 2 x 2, however the picture and the map differ in scale. A counting sort lays the lists of
-// a row of texels end to end, in the order of the picture; so what a triangle may cover is one run a row.
+// sees it. Each is listed in every texel that its footprint touches. Texels where nodes are crowded and small are
+// divided, up to 32 x 32, and footprints larger than a texel are listed in grids of larger ones: however the picture and
+// the map differ in scale, lists are short and a node is in few of them. A counting sort lays the lists of a row end to
+// end, in the order of the picture; so what a triangle may cover is one run a row.
 //
 // No memory is taken: the caller hands over two arrays, and storage_for says how long they must be. Rows of a picture
 // can be split over several buffers, one a thread, that share nothing.
@@ -7644,9 +7747,10 @@ namespace shadowmath {
 inline namespace v0 {
 
 inline constexpr int tile_side = 4;
-inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
+inline constexpr int level_shift = 2;     // a texel is 4 x 4 of the next finer level
 inline constexpr int most_levels = 8;
-inline constexpr int cell_shift = 4;  // a cell is 16 x 16 texels of the finest
+inline constexpr int most_divisions = 5;  // of a texel of the finest level: 2^5 x 2^5 parts
+inline constexpr int largest_grid = 1 << 11;
 
 // What the eye sees, row by row, `width` pixels each. Sky is a pixel whose normal is zero, whose depth is not positive,
 // or of which anything is not finite.
@@ -7654,8 +7758,8 @@ template <class T>
 struct Receivers {
     T const* position = nullptr;  // world; three scalars a pixel, `position_stride` apart
     int position_stride = 3;
-    T const* depth = nullptr;   // instead of positions: metres along the view's forward axis, one a pixel
-    T const* normal = nullptr;  // of the surface, not for shading; any length and sign
+    T const* depth = nullptr;     // instead of positions: metres along the view's forward axis, one a pixel
+    T const* normal = nullptr;    // of the surface, not for shading; any length and sign
     int normal_stride = 3;
 };
 
@@ -7669,8 +7773,8 @@ struct PixelRect {
 
 // What the lists of a buffer came to.
 struct ListCounts {
-    std::uint32_t tiles = 0;  // with a pixel that light may reach
-    std::uint32_t parts = 0;  // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
+    std::uint32_t tiles = 0;    // with a pixel that light may reach
+    std::uint32_t parts = 0;    // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
     std::uint32_t nodes = 0;
     std::uint32_t lists = 0;    // texels that are not empty
     std::uint32_t longest = 0;  // nodes in one texel
@@ -7695,43 +7799,46 @@ template <class T>
 struct IrregularBuffer {
     PixelFrame<T> frame;
     PixelLight<T> light;
+    Light<Wider<T>> source;
     PixelRect rect;
     Vec4<T> row[4];             // texel x, texel y, depth and w of a point, from its place relative to the eye
     T texel_error = T(0);       // what rounding may add to a texel coordinate times w, for each metre from the eye
     T texel_error_here = T(0);  // and whatever the distance
     T depth_error = T(0);
     T depth_error_here = T(0);
-    T contact_reach = T(0);  // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
+    T contact_reach = T(0);     // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
     T contact_ray = T(0);
     int tiles_across = 0;
     int tile_count = 0;
     int map_size = 0;
     int level_count = 0;
-    int cells_across = 0;
-    std::uint32_t texels_before[most_levels]{};  // of the finer levels
-    std::uint32_t levels_used = 0;               // bit l: level l has a node
+    std::uint32_t level_first[most_levels]{};  // place in `first` of the levels from 1 on
+    std::uint32_t levels_used = 0;             // bit l: level l has a node
 
     // Tiles: sixteen pixels each, four rows of four.
-    T* quad = nullptr;               // q, q_x, q_y: three times sixteen
+    T* quad = nullptr;               // q less the tile's, q_x, q_y: three times sixteen
+    T* tile_q = nullptr;             // near the q of its pixels: what differs from it is known to far more digits
     std::uint32_t* mask = nullptr;   // sixteen
     std::uint32_t* state = nullptr;  // bit k: light may reach pixel k, and a sample of it is not yet covered; and one
                                      // more than the index of the triangle that was tested last
 
-    // Nodes, sorted by texel: bounds in texels of the finest level, the far end of the depths, the tile.
+    // Nodes, sorted by list: bounds in texels of the finest level, the far end of the depths, the tile.
     T* lo_x = nullptr;
     T* hi_x = nullptr;
     T* lo_y = nullptr;
     T* hi_y = nullptr;
     T* depth = nullptr;
     std::uint32_t* tile = nullptr;
-    std::uint32_t* first = nullptr;  // node of each texel, all levels end to end; one more at the end
+    std::uint32_t* first = nullptr;  // node of each list, one more at the end
 
-    // Cells, to leave out levels that have nothing there.
-    T* cell_depth = nullptr;               // far end over the nodes that touch the cell
-    std::uint32_t* cell_levels = nullptr;  // bit l: level l has a node there
+    // Texels of the finest level.
+    T* texel_depth = nullptr;                // far end over the nodes that touch it
+    std::uint32_t* texel_levels = nullptr;   // bit l: level l has a node here
+    std::uint32_t* texel_lists = nullptr;    // place in `first`: nodes too wide for its divisions, then the divisions
+    std::uint32_t* texel_division = nullptr; // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
-    // For trace: triangles are put in order of their cells, a block at a time.
-    std::uint32_t* block_cell = nullptr;
+    // For trace: triangles are put in order of their texels, a block at a time.
+    std::uint32_t* block_texel = nullptr;
     std::uint32_t* block_order = nullptr;
     std::uint32_t* block_count = nullptr;
 
@@ -7751,22 +7858,23 @@ inline constexpr int caster_block = 1 << 15;
 
 // What a buffer needs for width x height pixels, a grid of map_size^2 texels and `capacity` parts of tiles. Parts are
 // one and a half times as many as tiles in ordinary pictures and 16 times as many at most: three times as many are
-// taken where capacity is 0. A map_size beyond 2^14 is no grid.
+// taken where capacity is 0. A map_size outside [1, 2^11] is no grid; 64 to 256 is a good one.
 [[nodiscard]] constexpr StorageSize storage_for(int width, int height, int map_size, int capacity = 0) noexcept {
-    if (width < 1 || height < 1 || map_size < 1 || map_size > 1 << 14) return {};
-    auto const up = [](int size, int step) { return static_cast<std::size_t>((size - 1) / step + 1); };
-    std::size_t const tiles = up(width, tile_side) * up(height, tile_side);
+    if (width < 1 || height < 1 || map_size < 1 || map_size > largest_grid) return {};
+    auto const tiles_along = [](int size) { return static_cast<std::size_t>((size - 1) / tile_side + 1); };
+    std::size_t const tiles = tiles_along(width) * tiles_along(height);
     std::size_t const parts = capacity > 0 ? static_cast<std::size_t>(capacity) : 3 * tiles;
-    std::size_t texels = 0;
-    for (int level = 0, side = 0; side != 1; ++level) {
+    std::size_t const texels = static_cast<std::size_t>(map_size) * static_cast<std::size_t>(map_size);
+    std::size_t coarser = 0;
+    for (int level = 1, side = map_size; side != 1; ++level) {
         side = level_size(map_size, level);
-        texels += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+        coarser += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     }
-    std::size_t const cells = up(map_size, 1 << cell_shift) * up(map_size, 1 << cell_shift);
-    // Behind each array of nodes sixteen more can be read.
+    // Behind each array of nodes sixteen more can be read. Every four nodes that touch a texel pay for a division.
     std::size_t const nodes = 4 * parts + lane_count;
-    return {3 * lane_count * tiles + 5 * nodes + 5 * parts + cells,
-            (lane_count + 2) * tiles + nodes + 3 * parts + texels + 2 + 2 * cells + 2 + 2 * caster_block};
+    return {(3 * lane_count + 1) * tiles + 5 * nodes + 5 * parts + texels,
+            (lane_count + 2) * tiles + nodes + 3 * parts + (2 * texels + coarser + parts + 2) + 4 * texels + 2 +
+                2 * caster_block};
 }
 
 namespace detail {
@@ -7785,30 +7893,45 @@ namespace detail {
 template <class T>
 struct Parts {
     T* bounds = nullptr;             // lo x, hi x, lo y, hi y, depth of each
-    std::uint32_t* place = nullptr;  // tile; texel x and y, 16 bits each; level, and whether it reaches x + 1 and y + 1
+    std::uint32_t* place = nullptr;  // tile and level; first and last place in x, in y, 16 bits each
     std::uint32_t capacity = 0;
 };
 
-struct TexelRange {
+// Places in units of the finest division.
+struct PlaceRange {
     int x0, x1, y0, y1;
 };
 
 // What lies beside the map belongs to its border.
 template <class T>
-[[nodiscard]] inline int texel_of(T coordinate, T last) noexcept {
+[[nodiscard]] inline int place_of(T coordinate, T last) noexcept {
+    T const place = coordinate * T(1 << most_divisions);
     // Written so that NaN ends at 0.
-    T const inside = coordinate > T(0) ? coordinate : T(0);
+    T const inside = place > T(0) ? place : T(0);
     return static_cast<int>(inside < last ? inside : last);
 }
 
 template <class T>
-[[nodiscard]] inline TexelRange texels_of(T const* bounds, int map_size) noexcept {
-    T const last = T(map_size - 1);
-    return {texel_of(bounds[0], last), texel_of(bounds[1], last), texel_of(bounds[2], last), texel_of(bounds[3], last)};
+[[nodiscard]] inline PlaceRange places_of(T const* bounds, int map_size) noexcept {
+    T const last = T((map_size << most_divisions) - 1);
+    return {place_of(bounds[0], last), place_of(bounds[1], last), place_of(bounds[2], last), place_of(bounds[3], last)};
 }
 
-[[nodiscard]] inline TexelRange coarser(TexelRange const& range, int shift) noexcept {
+[[nodiscard]] inline PlaceRange coarser(PlaceRange const& range, int shift) noexcept {
     return {range.x0 >> shift, range.x1 >> shift, range.y0 >> shift, range.y1 >> shift};
+}
+
+// Texels of a level, 0 being the finest.
+[[nodiscard]] inline PlaceRange texels_of(PlaceRange const& places, int level) noexcept {
+    return coarser(places, most_divisions + level_shift * level);
+}
+
+// The divisions of texel (x, y), divided into 2^k x 2^k, that the places touch.
+[[nodiscard]] inline PlaceRange divisions_of(PlaceRange const& places, int x, int y, int k) noexcept {
+    int const last = (1 << most_divisions) - 1, left = x << most_divisions, top = y << most_divisions;
+    return coarser({places.x0 > left ? places.x0 - left : 0, places.x1 < left + last ? places.x1 - left : last,
+                    places.y0 > top ? places.y0 - top : 0, places.y1 < top + last ? places.y1 - top : last},
+                   most_divisions - k);
 }
 
 template <class T>
@@ -7820,55 +7943,100 @@ inline void add_part(IrregularBuffer<T>& buffer, Parts<T> const& parts, int tile
     int level = 0;
     while (level + 1 < buffer.level_count && extent > T(1 << level_shift * level)) ++level;
     buffer.levels_used |= 1u << level;
-    TexelRange const finest = texels_of(bounds, buffer.map_size);
-    TexelRange const at = coarser(finest, level_shift * level);
-    // NOTE: a third texel is possible only by rounding of the extent, and then only within the padding of the bounds.
-    std::uint32_t const more_x = at.x1 > at.x0 ? 1u : 0u, more_y = at.y1 > at.y0 ? 1u : 0u;
+    PlaceRange const places = places_of(bounds, buffer.map_size);
     for (std::uint32_t i = 0; i < 5; ++i) parts.bounds[5 * index + i] = bounds[i];
     std::uint32_t* const place = parts.place + 3 * index;
-    place[0] = static_cast<std::uint32_t>(tile);
-    place[1] = static_cast<std::uint32_t>(at.x0) | static_cast<std::uint32_t>(at.y0) << 16;
-    place[2] = static_cast<std::uint32_t>(level) | more_x << 8 | more_y << 9;
-    int const size = level_size(buffer.map_size, level);
-    std::uint32_t* const count = buffer.first + 2 + buffer.texels_before[level] + at.y0 * size + at.x0;
-    for (std::uint32_t y = 0; y <= more_y; ++y)
-        for (std::uint32_t x = 0; x <= more_x; ++x) ++count[y * static_cast<std::uint32_t>(size) + x];
-    TexelRange const cells = coarser(finest, cell_shift);
-    for (int y = cells.y0; y <= cells.y1; ++y)
-        for (int x = cells.x0; x <= cells.x1; ++x) {
-            int const cell = y * buffer.cells_across + x;
-            buffer.cell_levels[cell] |= 1u << level;
-            buffer.cell_depth[cell] = bounds[4] > buffer.cell_depth[cell] ? bounds[4] : buffer.cell_depth[cell];
+    place[0] = static_cast<std::uint32_t>(tile) | static_cast<std::uint32_t>(level) << 28;
+    place[1] = static_cast<std::uint32_t>(places.x0) | static_cast<std::uint32_t>(places.x1) << 16;
+    place[2] = static_cast<std::uint32_t>(places.y0) | static_cast<std::uint32_t>(places.y1) << 16;
+    PlaceRange const texels = texels_of(places, 0);
+    for (int y = texels.y0; y <= texels.y1; ++y)
+        for (int x = texels.x0; x <= texels.x1; ++x) {
+            int const texel = y * buffer.map_size + x;
+            buffer.texel_levels[texel] |= 1u << level;
+            buffer.texel_depth[texel] = bounds[4] > buffer.texel_depth[texel] ? bounds[4] : buffer.texel_depth[texel];
+            if (level == 0) ++buffer.texel_division[texel];
         }
 }
 
+// Calls list(i) for each list, by its place in `first`, that part of a tile belongs to.
+template <class T, class List>
+inline void for_each_list(IrregularBuffer<T> const& buffer, std::uint32_t const* place, List const& list) noexcept {
+    PlaceRange const places{static_cast<int>(place[1] & 0xffffu), static_cast<int>(place[1] >> 16),
+                            static_cast<int>(place[2] & 0xffffu), static_cast<int>(place[2] >> 16)};
+    auto const level = static_cast<int>(place[0] >> 28);
+    PlaceRange const texels = texels_of(places, level);
+    int const size = level_size(buffer.map_size, level);
+    for (int y = texels.y0; y <= texels.y1; ++y)
+        for (int x = texels.x0; x <= texels.x1; ++x) {
+            auto const texel = static_cast<std::uint32_t>(y * size + x);
+            if (level > 0) {
+                list(buffer.level_first[level] + texel);
+                continue;
+            }
+            auto const k = static_cast<int>(buffer.texel_division[texel]);
+            PlaceRange const in = divisions_of(places, x, y, k);
+            std::uint32_t const first = buffer.texel_lists[texel];
+            // More than four divisions: listed once, for all triangles of the texel.
+            if (in.x1 - in.x0 > 1 || in.y1 - in.y0 > 1)
+                list(first);
+            else
+                for (int j = in.y0; j <= in.y1; ++j)
+                    for (int i = in.x0; i <= in.x1; ++i) list(first + 1 + static_cast<std::uint32_t>((j << k) + i));
+        }
+}
+
+// Divides texels: a division for every four nodes at most.
 template <class T>
-inline void sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts, std::uint32_t texel_count) noexcept {
+[[nodiscard]] inline std::uint32_t divide_texels(IrregularBuffer<T>& buffer) noexcept {
+    std::uint32_t lists = 0;
+    auto const texels = static_cast<std::uint32_t>(buffer.map_size * buffer.map_size);
+    for (std::uint32_t texel = 0; texel < texels; ++texel) {
+        std::uint32_t const nodes = buffer.texel_division[texel];
+        std::uint32_t k = 0;
+        while (k < most_divisions && (std::uint32_t(16) << 2 * k) <= nodes) ++k;
+        buffer.texel_division[texel] = k;
+        buffer.texel_lists[texel] = lists;
+        lists += 1 + (1u << 2 * k);
+    }
+    for (int level = 1; level < buffer.level_count; ++level) {
+        int const side = level_size(buffer.map_size, level);
+        buffer.level_first[level] = lists;
+        lists += static_cast<std::uint32_t>(side * side);
+    }
+    return lists;
+}
+
+// False where the nodes are more than four for each part that there is room for.
+template <class T>
+[[nodiscard]] inline bool sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts) noexcept {
+    std::uint32_t const lists = divide_texels(buffer);
+    std::memset(buffer.first, 0, (lists + 2) * sizeof(std::uint32_t));
     std::uint32_t* const end = buffer.first + 1;
     ListCounts& counts = buffer.counts;
-    for (std::uint32_t t = 1; t <= texel_count; ++t) {
-        std::uint32_t const length = end[t];
+    for (std::uint32_t i = 0; i < counts.parts; ++i)
+        for_each_list(buffer, parts.place + 3 * i, [end](std::uint32_t list) { ++end[list + 1]; });
+    for (std::uint32_t list = 1; list <= lists; ++list) {
+        std::uint32_t const length = end[list];
         counts.lists += length > 0 ? 1u : 0u;
         counts.longest = length > counts.longest ? length : counts.longest;
-        end[t] = counts.nodes += length;
+        end[list] = counts.nodes += length;
     }
+    if (counts.nodes > 4 * parts.capacity) return false;
     for (std::uint32_t i = 0; i < counts.parts; ++i) {
         T const* const bounds = parts.bounds + 5 * i;
-        std::uint32_t const* const place = parts.place + 3 * i;
-        std::uint32_t const level = place[2] & 0xffu;
-        auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, static_cast<int>(level)));
-        std::uint32_t* const next = end + buffer.texels_before[level] + (place[1] >> 16) * size + (place[1] & 0xffffu);
-        for (std::uint32_t y = 0; y <= (place[2] >> 9 & 1u); ++y)
-            for (std::uint32_t x = 0; x <= (place[2] >> 8 & 1u); ++x) {
-                std::uint32_t const node = next[y * size + x]++;
-                buffer.lo_x[node] = bounds[0];
-                buffer.hi_x[node] = bounds[1];
-                buffer.lo_y[node] = bounds[2];
-                buffer.hi_y[node] = bounds[3];
-                buffer.depth[node] = bounds[4];
-                buffer.tile[node] = place[0];
-            }
+        std::uint32_t const tile = parts.place[3 * i] & 0x0fffffffu;
+        for_each_list(buffer, parts.place + 3 * i, [&](std::uint32_t list) {
+            std::uint32_t const node = end[list]++;
+            buffer.lo_x[node] = bounds[0];
+            buffer.hi_x[node] = bounds[1];
+            buffer.lo_y[node] = bounds[2];
+            buffer.hi_y[node] = bounds[3];
+            buffer.depth[node] = bounds[4];
+            buffer.tile[node] = tile;
+        });
     }
+    return true;
 }
 
 // Sixteen pixels of the picture: their quads, whether light may reach them, and where the light sees them.
@@ -7895,9 +8063,8 @@ struct TileKernel {
         auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
         int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
         for (int j = 0; j < tile_side; ++j) {
-            std::size_t const pixel =
-                static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
-                static_cast<std::size_t>(column);
+            std::size_t const pixel = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                                      static_cast<std::size_t>(column);
             for (int i = 0; i < tile_side; ++i) {
                 std::size_t const at = pixel + static_cast<std::size_t>(i < columns ? i : 0);
                 int const k = j * tile_side + i;
@@ -7917,6 +8084,13 @@ struct TileKernel {
         }
     }
 
+    [[nodiscard]] static T middle_of(std::uint32_t part, Lanes const& q) noexcept {
+        if (part == 0) return T(0);
+        T lane[lane_count];
+        q.store(lane);
+        return lane[lowest_bit(part)];
+    }
+
     [[nodiscard]] static std::uint32_t lanes_inside(int columns, int rows) noexcept {
         std::uint32_t const in_row = columns < tile_side ? (1u << columns) - 1u : 0xfu;
         std::uint32_t inside = 0;
@@ -7933,7 +8107,7 @@ struct TileKernel {
         Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
         Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
         Lanes const m[3] = {Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2])};
-        auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
+        auto const dot = [&all](Vec3<T> const& v, Lanes const (&a)[3]) {
             return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
         };
         Lanes depth = Lanes::load(in[3]);
@@ -7954,15 +8128,15 @@ struct TileKernel {
         if (!flat) sound &= at_least(depth, tiny);
         Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
         Lanes const q_x = nx * scale, q_y = ny * scale;
-        Lanes const q = (flat ? depth : divisor * scale) - (q_x + q_y) * half;
+        Lanes const middle = flat ? depth : divisor * scale, to_corner = (q_x + q_y) * half;
+        Lanes const q = middle - to_corner;
         sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
         sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
         seen.alive = seen.away = 0;
         if (sound == 0) return;
 
         // Light and eye on the same side?
-        Lanes travel =
-            fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
+        Lanes travel = fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
             travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
         Lanes const under = zero - tiny;
@@ -8019,14 +8193,16 @@ struct TileKernel {
         seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
         T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        chosen(seen.alive, q, zero).store(quads);
+        // With the rounding of the division put right, where operations are fused.
+        T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
+        Lanes const exact = flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
+        chosen(seen.alive, exact - to_corner, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
 
     // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
-    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part,
-                int pixels_across) const noexcept {
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across) const noexcept {
         if (part == 0) return;
         Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
@@ -8067,8 +8243,7 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
     T scale[4];
     for (int i = 0; i < 4; ++i) {
         Vec4<T> const r = row(canonical, i);
-        scale[i] =
-            std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+        scale[i] = std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
     }
     // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
     Vec4<T> const image = canonical * source;
@@ -8100,8 +8275,7 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
 template <class T>
 [[nodiscard]] inline PixelPlane<T> plane_of_row(PixelFrame<T> const& frame, Vec4<T> const& row) noexcept {
     Vec3<T> const axis(row);
-    T const offset =
-        row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
+    T const offset = row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
     return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
 }
 
@@ -8111,6 +8285,9 @@ template <class T>
 inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowMap<T> const& grid) noexcept {
     PixelFrame<T> const& frame = buffer.frame;
     buffer.light = pixel_light(frame, light);
+    buffer.source.kind = light.kind;
+    buffer.source.direction = Vec3<Wider<T>>(light.direction);
+    buffer.source.position = Vec3<Wider<T>>(light.position);
     buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
                          glm::length(frame.inward);
     buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));
@@ -8124,8 +8301,7 @@ inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowM
 
 // The arrays of a buffer, cut from what the caller gave. No capacity where not even the tiles fit.
 template <class T>
-[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage,
-                                      std::uint32_t texel_count) noexcept {
+[[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage) noexcept {
     Parts<T> parts;
     // What one part more adds: one of its own and four nodes of each array.
     StorageSize const least = storage_for(buffer.rect.width, buffer.rect.height, buffer.map_size, 1);
@@ -8133,12 +8309,12 @@ template <class T>
         storage.size.words < least.words)
         return parts;
     std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
-    std::size_t const by_words = (storage.size.words - least.words) / 7;
+    std::size_t const by_words = (storage.size.words - least.words) / 8;
     std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
-    // Nodes are counted with 32 bits.
-    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 29 ? capacity : 1u << 29);
+    // Nodes are counted with 32 bits, tiles with 28.
+    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 28 ? capacity : 1u << 28);
     auto const tiles = static_cast<std::size_t>(buffer.tile_count);
-    auto const cells = static_cast<std::size_t>(buffer.cells_across) * static_cast<std::size_t>(buffer.cells_across);
+    auto const texels = static_cast<std::size_t>(buffer.map_size) * static_cast<std::size_t>(buffer.map_size);
     std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
     T* scalars = storage.scalars;
     std::uint32_t* words = storage.words;
@@ -8148,22 +8324,22 @@ template <class T>
         return taken;
     };
     buffer.quad = take(scalars, 3 * lane_count * tiles);
-    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth})
-        *array = take(scalars, nodes);
-    buffer.cell_depth = take(scalars, cells);
+    buffer.tile_q = take(scalars, tiles);
+    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
+    buffer.texel_depth = take(scalars, texels);
     parts.bounds = scalars;
     buffer.mask = take(words, lane_count * tiles);
     buffer.state = take(words, 2 * tiles);
-    buffer.first = take(words, texel_count + 2);
     buffer.tile = take(words, nodes);
-    buffer.cell_levels = take(words, cells);
-    buffer.block_count = take(words, cells + 2);
-    buffer.block_cell = take(words, caster_block);
+    for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division}) *array = take(words, texels);
+    buffer.block_count = take(words, texels + 2);
+    buffer.block_texel = take(words, caster_block);
     buffer.block_order = take(words, caster_block);
-    parts.place = words;
-    std::memset(buffer.first, 0, (texel_count + 2) * sizeof(std::uint32_t));
-    std::memset(buffer.cell_levels, 0, cells * sizeof(std::uint32_t));
-    for (std::size_t cell = 0; cell < cells; ++cell) buffer.cell_depth[cell] = std::numeric_limits<T>::lowest();
+    parts.place = take(words, 3 * std::size_t{parts.capacity});
+    buffer.first = words;
+    std::memset(buffer.texel_levels, 0, texels * sizeof(std::uint32_t));
+    std::memset(buffer.texel_division, 0, texels * sizeof(std::uint32_t));
+    for (std::size_t texel = 0; texel < texels; ++texel) buffer.texel_depth[texel] = std::numeric_limits<T>::lowest();
     return parts;
 }
 
@@ -8173,7 +8349,7 @@ template <class T>
 // it, stay lit; the rest of its frame does not matter. Those that face away from the light are dark in all samples.
 //
 // Faults leave everything lit: not_finite, zero_light, those of the view, bad_projection where the matrix is not a map
-// of this light, map_too_small for a grid outside [1, 2^14], bad_region, and storage_too_small, where counts.parts says
+// of this light, map_too_small for a grid outside [1, 2^11], bad_region, and storage_too_small, where counts.parts says
 // what capacity would do.
 template <class T, class Lanes = BestLanes<T>>
 [[nodiscard]] inline IrregularBuffer<T> list_receivers(PixelFrame<T> const& frame, Receivers<T> const& receivers,
@@ -8189,7 +8365,7 @@ template <class T, class Lanes = BestLanes<T>>
     if (rect.height < 1) rect.height = frame.height - rect.y;
     bool const inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
                         rect.x <= frame.width - rect.width && rect.y <= frame.height - rect.height;
-    if (map_size < 1 || map_size > 1 << 14) buffer.faults |= Fault::map_too_small;
+    if (map_size < 1 || map_size > largest_grid) buffer.faults |= Fault::map_too_small;
     if (!inside) buffer.faults |= Fault::bad_region;
     if (inside) buffer.rect = rect;
     if (frame.faults.any() || unusable(light) || !inside || buffer.faults.has(Fault::map_too_small)) return buffer;
@@ -8200,14 +8376,8 @@ template <class T, class Lanes = BestLanes<T>>
     bool const flat = frame.kind == ViewKind::orthographic;
     buffer.tiles_across = (rect.width - 1) / tile_side + 1;
     buffer.tile_count = buffer.tiles_across * ((rect.height - 1) / tile_side + 1);
-    buffer.cells_across = ((map_size - 1) >> cell_shift) + 1;
-    std::uint32_t texel_count = 0;
-    for (int side = 0; side != 1;) {
-        side = level_size(map_size, buffer.level_count);
-        buffer.texels_before[buffer.level_count++] = texel_count;
-        texel_count += static_cast<std::uint32_t>(side) * static_cast<std::uint32_t>(side);
-    }
-    detail::Parts<T> const parts = detail::lay_out(buffer, storage, texel_count);
+    for (int side = 0; side != 1;) side = level_size(map_size, buffer.level_count++);
+    detail::Parts<T> const parts = detail::lay_out(buffer, storage);
     if (parts.capacity == 0) {
         buffer.faults |= Fault::storage_too_small;
         buffer.tile_count = 0;
@@ -8223,22 +8393,22 @@ template <class T, class Lanes = BestLanes<T>>
         rows[k] = T(k / tile_side);
     }
     Vec4<T> const* const row = buffer.row;
-    detail::TileKernel<Lanes> const kernel{buffer,
-                                           receivers,
-                                           {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]),
-                                            detail::plane_of_row(frame, row[2]), detail::plane_of_row(frame, row[3])},
-                                           grid.w_min > T(0) ? grid.w_min : T(0),
-                                           detail::turn_limit(frame),
-                                           Lanes::load(columns),
-                                           Lanes::load(rows),
-                                           flat,
-                                           Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
+    detail::TileKernel<Lanes> const kernel{
+        buffer,
+        receivers,
+        {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]), detail::plane_of_row(frame, row[2]),
+         detail::plane_of_row(frame, row[3])},
+        grid.w_min > T(0) ? grid.w_min : T(0),
+        detail::turn_limit(frame),
+        Lanes::load(columns),
+        Lanes::load(rows),
+        flat,
+        Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
     Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);
     Lanes least_w = huge, most_w = low;
     typename detail::TileKernel<Lanes>::Seen seen;
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
-        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side,
-                   rect.y + tile / buffer.tiles_across * tile_side, seen);
+        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side, rect.y + tile / buffer.tiles_across * tile_side, seen);
         std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
         for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
         buffer.state[2 * tile] = seen.alive;
@@ -8251,13 +8421,12 @@ template <class T, class Lanes = BestLanes<T>>
     }
     buffer.least_w = smallest(least_w);
     buffer.most_w = largest(most_w);
-    if (buffer.counts.parts > parts.capacity) {
+    if (buffer.counts.parts > parts.capacity || !detail::sort_parts(buffer, parts)) {
         buffer.faults |= Fault::storage_too_small;
+        if (buffer.counts.parts < (buffer.counts.nodes + 3) / 4) buffer.counts.parts = (buffer.counts.nodes + 3) / 4;
         buffer.tile_count = 0;
         buffer.levels_used = 0;
-        return buffer;
     }
-    detail::sort_parts(buffer, parts, texel_count);
     return buffer;
 }
 
@@ -8307,119 +8476,173 @@ template <class Lanes, class T = typename Lanes::Scalar>
 struct TraceKernel {
     IrregularBuffer<T>& buffer;
     Casters<T> const& casters;
+    PixelFrame<Wider<T>> frame;
+    PixelLight<Wider<T>> light;
     Lanes column_in_tile, row_in_tile;
     T w_floor;
 
+    using Wide = typename Lanes::Wide;
+    using Real = Wider<T>;
+
     // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
     struct Batch {
-        std::uint32_t sound;         // bit k: triangle k may take light from a receiver
-        T vertex[3][3][lane_count];  // relative to the eye
-        T bounds[4][lane_count];     // lo x, hi x, lo y, hi y in texels
-        T depth[lane_count];         // the end nearest to the light
-        T plane[4][4][lane_count];
-        Lanes reach;  // metres from the eye, at most
+        std::uint32_t sound;              // bit k: triangle k may take light from a receiver
+        T vertex[3][3][lane_count];       // world
+        T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
+        T depth[lane_count];              // the end nearest to the light
+        Real plane[4][4][lane_count];     // x, y, a, b of the four half spaces
+        Lanes reach;                      // metres from the eye, at most
     };
 
-    // One triangle against sixteen pixels.
-    void test(std::uint32_t tile, Batch const& batch, int k) const noexcept {
-        std::uint32_t const alive = buffer.state[2 * tile];
-        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count),
-                    q_y = Lanes::load(quads + 2 * lane_count);
-        auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        T const x = T(static_cast<int>(tile % tiles_across) * tile_side + buffer.rect.x) - T(buffer.frame.width) / T(2);
-        T const y =
-            T(static_cast<int>(tile / tiles_across) * tile_side + buffer.rect.y) - T(buffer.frame.height) / T(2);
+    // Tiles that a triangle may touch, in the order of its lists, some of them twice.
+    struct Queue {
+        static constexpr std::uint32_t room = 256;
+        std::uint32_t tile[room + lane_count];
+        std::uint32_t count = 0;
+    };
+
+    // One triangle against sixteen pixels of each tile in the queue. Between two tiles nothing is decided but whether
+    // any pixel is touched: a processor that guesses branches has little to guess.
+    void test(Queue& queue, Batch const& batch, int k, std::uint32_t stamp) const noexcept {
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < queue.count; ++i) {
+            std::uint32_t const tile = queue.tile[i];
+            std::uint32_t* const state = buffer.state + 2 * tile;
+            queue.tile[kept] = tile;
+            kept += state[0] != 0 && state[1] != stamp ? 1u : 0u;
+            state[1] = stamp;
+        }
+        queue.count = 0;
         Lanes const zero = Lanes::all(T(0));
-        Lanes c[4], gain_x[4], gain_y[4];
-        std::uint32_t touched = alive, covered = alive;
+        auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
+        Real const left = Real(buffer.rect.x) - Real(frame.width) / Real(2);
+        Real const bottom = Real(buffer.rect.y) - Real(frame.height) / Real(2);
+        Real const* const p = &batch.plane[0][0][k];
+        Lanes xs[4], ys[4], bs[4];
         for (int i = 0; i < 4; ++i) {
-            T const px = batch.plane[i][0][k], py = batch.plane[i][1][k], pa = batch.plane[i][2][k];
-            Lanes const xs = Lanes::all(px), ys = Lanes::all(py), bs = Lanes::all(batch.plane[i][3][k]);
-            c[i] = fused(bs, q, fused(ys, row_in_tile, fused(xs, column_in_tile, Lanes::all(px * x + py * y + pa))));
-            gain_x[i] = fused(bs, q_x, xs);
-            gain_y[i] = fused(bs, q_y, ys);
-            // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
-            touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
-            if (touched == 0) return;
-            covered &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
+            xs[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i]));
+            ys[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i + lane_count]));
+            bs[i] = Lanes::all(static_cast<T>(p[4 * lane_count * i + 3 * lane_count]));
+        }
+        for (std::uint32_t n = 0; n < kept; ++n) {
+            std::uint32_t const tile = queue.tile[n];
+            T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+            Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
+            Real const x = Real(static_cast<int>(tile % tiles_across * tile_side)) + left;
+            Real const y = Real(static_cast<int>(tile / tiles_across * tile_side)) + bottom;
+            auto const tile_q = Real(buffer.tile_q[tile]);
+            Lanes c[4], gain_x[4], gain_y[4];
+            std::uint32_t const alive = buffer.state[2 * tile];
+            std::uint32_t touched = alive;
+            for (int i = 0; i < 4; ++i) {
+                // Here large terms cancel; what is left is no more than a tile's worth.
+                Real const* const plane = p + 4 * lane_count * i;
+                Real const here = plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
+                c[i] = fused(bs[i], q, fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
+                gain_x[i] = fused(bs[i], q_x, xs[i]);
+                gain_y[i] = fused(bs[i], q_y, ys[i]);
+                // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
+                touched &= at_least((c[i] + most(gain_x[i], zero)) + most(gain_y[i], zero), zero);
+            }
+            if (touched != 0) darken(tile, alive, touched, c, gain_x, gain_y);
+        }
+    }
+
+    // The pixels of a tile that a triangle touches, with their lines.
+    void darken(std::uint32_t tile, std::uint32_t alive, std::uint32_t touched, Lanes const (&c)[4], Lanes const (&gain_x)[4],
+                Lanes const (&gain_y)[4]) const noexcept {
+        Lanes const zero = Lanes::all(T(0));
+        std::uint32_t done = touched;
+        T lines[4][3][lane_count];
+        for (int i = 0; i < 4; ++i) {
+            done &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
+            c[i].store(lines[i][0]);
+            gain_x[i].store(lines[i][1]);
+            gain_y[i].store(lines[i][2]);
         }
         std::uint32_t* const masks = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
-        std::uint32_t done = covered & touched;
         for (std::uint32_t bits = done; bits != 0; bits &= bits - 1) masks[lowest_bit(bits)] = every_sample;
-        std::uint32_t crossed = touched & ~covered;
-        if (crossed != 0) {
-            T lines[4][3][lane_count];
-            for (int i = 0; i < 4; ++i) {
-                c[i].store(lines[i][0]);
-                gain_x[i].store(lines[i][1]);
-                gain_y[i].store(lines[i][2]);
-            }
-            for (; crossed != 0; crossed &= crossed - 1) {
-                int const pixel = lowest_bit(crossed);
-                std::uint32_t dark = every_sample;
-                for (auto const& line : lines)
-                    dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][pixel], line[1][pixel], line[2][pixel]});
-                masks[pixel] |= dark;
-                if (masks[pixel] == every_sample) done |= 1u << pixel;
-            }
+        for (std::uint32_t crossed = touched & ~done; crossed != 0; crossed &= crossed - 1) {
+            int const pixel = lowest_bit(crossed);
+            std::uint32_t dark = every_sample;
+            for (auto const& line : lines)
+                dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][pixel], line[1][pixel], line[2][pixel]});
+            masks[pixel] |= dark;
+            done |= (masks[pixel] == every_sample ? 1u : 0u) << pixel;
         }
         buffer.state[2 * tile] = alive & ~done;
     }
 
-    // The levels that have a node which triangle k may touch; texels of the finest level.
-    [[nodiscard]] std::uint32_t levels_at(TexelRange const& texels, T depth) const noexcept {
-        TexelRange const cells = coarser(texels, cell_shift);
-        if (cells.x1 - cells.x0 > 2 || cells.y1 - cells.y0 > 2) return buffer.levels_used;
+    // The levels that have a node which triangle k may touch.
+    [[nodiscard]] std::uint32_t levels_at(PlaceRange const& texels, T depth) const noexcept {
+        if (texels.x1 - texels.x0 > 3 || texels.y1 - texels.y0 > 3) return buffer.levels_used;
         std::uint32_t levels = 0;
-        for (int y = cells.y0; y <= cells.y1; ++y)
-            for (int x = cells.x0; x <= cells.x1; ++x) {
-                int const cell = y * buffer.cells_across + x;
-                levels |= buffer.cell_depth[cell] >= depth ? buffer.cell_levels[cell] : 0u;
+        for (int y = texels.y0; y <= texels.y1; ++y)
+            for (int x = texels.x0; x <= texels.x1; ++x) {
+                int const texel = y * buffer.map_size + x;
+                levels |= buffer.texel_depth[texel] >= depth ? buffer.texel_levels[texel] : 0u;
             }
         return levels;
     }
 
-    [[nodiscard]] TexelRange texels_of_triangle(Batch const& batch, int k) const noexcept {
+    [[nodiscard]] PlaceRange places_of_triangle(Batch const& batch, int k) const noexcept {
         T const bounds[4] = {batch.bounds[0][k], batch.bounds[1][k], batch.bounds[2][k], batch.bounds[3][k]};
-        return texels_of(bounds, buffer.map_size);
+        return places_of(bounds, buffer.map_size);
+    }
+
+    // What a triangle is compared with nodes by.
+    struct Probe {
+        Lanes lo_x, hi_x, lo_y, hi_y, depth;
+        Batch const& batch;
+        int k;
+        std::uint32_t stamp;
+    };
+
+    // Queues the tiles of those nodes of [node, end) that the triangle may touch.
+    void scan(std::uint32_t node, std::uint32_t end, Probe const& probe, Queue& queue) const noexcept {
+        for (; node < end; node += lane_count) {
+            std::uint32_t hit = at_least(probe.hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
+                                at_least(probe.hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
+                                at_least(Lanes::load(buffer.depth + node), probe.depth);
+            if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
+            queue.count += Lanes::compress(hit, buffer.tile + node, queue.tile + queue.count);
+            if (queue.count >= Queue::room) test(queue, probe.batch, probe.k, probe.stamp);
+        }
     }
 
     // One triangle against the lists of the texels that it may cover.
-    void walk(Batch const& batch, int k, std::uint32_t stamp) const noexcept {
-        Lanes const lo_x = Lanes::all(batch.bounds[0][k]), hi_x = Lanes::all(batch.bounds[1][k]);
-        Lanes const lo_y = Lanes::all(batch.bounds[2][k]), hi_y = Lanes::all(batch.bounds[3][k]);
-        Lanes const depth = Lanes::all(batch.depth[k]);
-        TexelRange const finest = texels_of_triangle(batch, k);
-        for (std::uint32_t levels = levels_at(finest, batch.depth[k]); levels != 0; levels &= levels - 1) {
-            int const level = lowest_bit(levels);
-            auto const size = static_cast<std::uint32_t>(level_size(buffer.map_size, level));
-            TexelRange const range = coarser(finest, level_shift * level);
-            std::uint32_t const* first =
-                buffer.first + buffer.texels_before[level] + static_cast<std::uint32_t>(range.y0) * size;
-            for (int y = range.y0; y <= range.y1; ++y, first += size) {
-                std::uint32_t const end = first[range.x1 + 1];
-                for (std::uint32_t node = first[range.x0]; node < end; node += lane_count) {
-                    std::uint32_t hit = at_least(hi_x, Lanes::load(buffer.lo_x + node)) &
-                                        at_least(Lanes::load(buffer.hi_x + node), lo_x) &
-                                        at_least(hi_y, Lanes::load(buffer.lo_y + node)) &
-                                        at_least(Lanes::load(buffer.hi_y + node), lo_y) &
-                                        at_least(Lanes::load(buffer.depth + node), depth);
-                    if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
-                    for (; hit != 0; hit &= hit - 1) {
-                        std::uint32_t const at = node + static_cast<std::uint32_t>(lowest_bit(hit));
-                        std::uint32_t const tile = buffer.tile[at];
-                        std::uint32_t* const state = buffer.state + 2 * tile;
-                        if (state[1] == stamp) continue;
-                        state[1] = stamp;
-                        if (state[0] == 0)
-                            buffer.depth[at] = std::numeric_limits<T>::lowest();  // full: off the list
-                        else
-                            test(tile, batch, k);
+    void walk(Batch const& batch, int k, std::uint32_t stamp, Queue& queue) const noexcept {
+        PlaceRange const places = places_of_triangle(batch, k);
+        PlaceRange const texels = texels_of(places, 0);
+        std::uint32_t levels = levels_at(texels, batch.depth[k]);
+        if (levels == 0) return;
+        Probe const probe{Lanes::all(batch.bounds[0][k]), Lanes::all(batch.bounds[1][k]), Lanes::all(batch.bounds[2][k]),
+                          Lanes::all(batch.bounds[3][k]), Lanes::all(batch.depth[k]), batch, k, stamp};
+        std::uint32_t const* const first = buffer.first;
+        if ((levels & 1u) != 0)
+            for (int y = texels.y0; y <= texels.y1; ++y)
+                for (int x = texels.x0; x <= texels.x1; ++x) {
+                    int const texel = y * buffer.map_size + x;
+                    if (buffer.texel_depth[texel] < batch.depth[k] || (buffer.texel_levels[texel] & 1u) == 0) continue;
+                    auto const division = static_cast<int>(buffer.texel_division[texel]);
+                    std::uint32_t const* const lists = first + buffer.texel_lists[texel];
+                    PlaceRange const in = divisions_of(places, x, y, division);
+                    scan(lists[0], lists[1], probe, queue);
+                    for (int j = in.y0; j <= in.y1; ++j) {
+                        std::uint32_t const* const row = lists + 1 + (j << division);
+                        scan(row[in.x0], row[in.x1 + 1], probe, queue);
                     }
                 }
+        for (levels &= ~1u; levels != 0; levels &= levels - 1) {
+            int const level = lowest_bit(levels);
+            int const size = level_size(buffer.map_size, level);
+            PlaceRange const range = texels_of(places, level);
+            for (int y = range.y0; y <= range.y1; ++y) {
+                std::uint32_t const* const row = first + buffer.level_first[level] + y * size;
+                scan(row[range.x0], row[range.x1 + 1], probe, queue);
             }
         }
+        test(queue, batch, k, stamp);
     }
 
     // The bounds of the part of a triangle at w >= w_floor: no receiver is in the shadow of the rest.
@@ -8450,7 +8673,6 @@ struct TraceKernel {
 
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
-        Vec3<T> const& eye = buffer.frame.eye;
         batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
@@ -8460,7 +8682,7 @@ struct TraceKernel {
                 if (casters.index != nullptr) vertex = casters.index[vertex];
                 ok = ok && vertex < casters.vertex_count;
                 T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis] - eye[axis];
+                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis];
             }
             batch.sound |= (ok ? 1u : 0u) << k;
         }
@@ -8470,15 +8692,15 @@ struct TraceKernel {
     // Bounds in the grid, and which of the sixteen reach a receiver's.
     void find(Batch& batch) const noexcept {
         auto const all = [](T value) { return Lanes::all(value); };
-        Lanes const largest_number = all(std::numeric_limits<T>::max()),
-                    lowest_number = all(std::numeric_limits<T>::lowest());
+        Lanes const largest_number = all(std::numeric_limits<T>::max()), lowest_number = all(std::numeric_limits<T>::lowest());
         Lanes at[3][4];
         Lanes least_w = largest_number, most_w = lowest_number;
         std::uint32_t sound = batch.sound;
         batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
-            Lanes const x = Lanes::load(batch.vertex[i][0]), y = Lanes::load(batch.vertex[i][1]),
-                        z = Lanes::load(batch.vertex[i][2]);
+            Vec3<T> const& eye = buffer.frame.eye;
+            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x), y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
+                        z = Lanes::load(batch.vertex[i][2]) - all(eye.z);
             Lanes const away = absolute(x) + absolute(y) + absolute(z);
             sound &= at_least(all(farthest_vertex<T>), away);
             batch.reach = most(batch.reach, away);
@@ -8501,18 +8723,18 @@ struct TraceKernel {
             hi_y = most(hi_y, y);
             depth = least(depth, at[i][2] * inverse);
         }
-        std::uint32_t crossing = sound & ~at_least(least_w, floor);
-        if (crossing != 0) {
+        std::uint32_t const clipped_ones = sound & ~at_least(least_w, floor);
+        if (clipped_ones != 0) {
             // A few triangles in a warped map, and those beside a lamp. Their depths would have to be clipped as well.
             T rows[3][4][lane_count], clipped[4][lane_count];
             for (int i = 0; i < 3; ++i)
                 for (int r = 0; r < 4; ++r) at[i][r].store(rows[i][r]);
-            depth = chosen(crossing, lowest_number, depth);
+            depth = chosen(clipped_ones, lowest_number, depth);
             lo_x.store(clipped[0]);
             hi_x.store(clipped[1]);
             lo_y.store(clipped[2]);
             hi_y.store(clipped[3]);
-            for (; crossing != 0; crossing &= crossing - 1) {
+            for (std::uint32_t crossing = clipped_ones; crossing != 0; crossing &= crossing - 1) {
                 int const k = lowest_bit(crossing);
                 T one[3][4], bounds[4];
                 for (int i = 0; i < 3; ++i)
@@ -8527,16 +8749,14 @@ struct TraceKernel {
         }
         // What rounding may add, so that no texel is missed.
         Lanes const steepest = reciprocal(most(least_w, floor));
-        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)),
-                                all(T(1) / T(128)));
+        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
         lo_x = lo_x - pad;
         hi_x = hi_x + pad;
         lo_y = lo_y - pad;
         hi_y = hi_y + pad;
         depth = depth - steepest * fused(batch.reach, all(buffer.depth_error), all(buffer.depth_error_here));
-        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) &
-                 at_least(all(buffer.most_y), lo_y) & at_least(hi_y, all(buffer.least_y)) &
-                 at_least(all(buffer.most_depth), depth);
+        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) & at_least(all(buffer.most_y), lo_y) &
+                 at_least(hi_y, all(buffer.least_y)) & at_least(all(buffer.most_depth), depth);
         lo_x.store(batch.bounds[0]);
         hi_x.store(batch.bounds[1]);
         lo_y.store(batch.bounds[2]);
@@ -8546,62 +8766,58 @@ struct TraceKernel {
     }
 
     void raise_volumes(Batch& batch) const noexcept {
-        auto const all = [](T value) { return Lanes::all(value); };
-        PixelFrame<T> const& frame = buffer.frame;
-        Triple<Lanes> p[3];
+        auto const all = [](Real value) { return Wide::all(value); };
+        Triple<Wide> p[3];
         for (int i = 0; i < 3; ++i) {
-            Triple<Lanes> const v{Lanes::load(batch.vertex[i][0]), Lanes::load(batch.vertex[i][1]),
-                                  Lanes::load(batch.vertex[i][2])};
-            auto const along = [&](Vec3<T> const& axis) {
-                return inner(Triple<Lanes>{all(axis.x), all(axis.y), all(axis.z)}, v);
-            };
-            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y),
-                    along(frame.to_inward)};
+            auto const from_eye = [&](int axis) { return Wide::load(batch.vertex[i][axis]) - all(frame.eye[axis]); };
+            Triple<Wide> const v{from_eye(0), from_eye(1), from_eye(2)};
+            auto const along = [&](Vec3<Real> const& axis) { return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v); };
+            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
         }
-        Lanes const metres = all(contact_share<T>) * (batch.reach + all(T(1) + buffer.contact_reach));
-        ShadowVolume<Lanes> const volume =
-            volume_of(frame, buffer.light, p, metres, contact_share<T> * buffer.contact_ray, all);
+        T reach[lane_count];
+        batch.reach.store(reach);
+        Real const share = contact_share<Real>;
+        Wide const metres = all(share) * (Wide::load(reach) + all(Real(1) + Real(buffer.contact_reach)));
+        ShadowVolume<Wide> const volume = volume_of(frame, light, p, metres, share * Real(buffer.contact_ray), all);
         for (int i = 0; i < 4; ++i) {
             volume.planes[i].x.store(batch.plane[i][0]);
             volume.planes[i].y.store(batch.plane[i][1]);
             volume.planes[i].a.store(batch.plane[i][2]);
             volume.planes[i].b.store(batch.plane[i][3]);
         }
-        batch.sound &= at_least(absolute(volume.along), all(std::numeric_limits<T>::min()));
+        batch.sound &= at_least(absolute(volume.along), all(Real(std::numeric_limits<T>::min())));
     }
 
-    // At most caster_block triangles, in the order of the cells that they lie in: what is next to each other in the
+    // At most caster_block triangles, in the order of the texels that they begin in: what is next to each other in the
     // grid is then in the caches, however the mesh was laid out.
-    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch) const noexcept {
-        auto const cells = static_cast<std::uint32_t>(buffer.cells_across * buffer.cells_across);
-        std::uint32_t const nowhere_to_be = cells;
+    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch, Queue& queue) const noexcept {
+        auto const texels = static_cast<std::uint32_t>(buffer.map_size * buffer.map_size);
         std::uint32_t* const start = buffer.block_count;
-        std::memset(start, 0, (cells + 2) * sizeof(std::uint32_t));
+        std::memset(start, 0, (texels + 2) * sizeof(std::uint32_t));
         for (std::uint32_t i = 0; i < count; i += lane_count) {
             load(begin + i, count - i, nullptr, batch);
             for (std::uint32_t k = 0; k < lane_count && i + k < count; ++k) {
-                std::uint32_t cell = nowhere_to_be;
+                std::uint32_t texel = texels;
                 if ((batch.sound >> k & 1u) != 0) {
-                    TexelRange const texels = texels_of_triangle(batch, static_cast<int>(k));
-                    TexelRange const at = coarser(texels, cell_shift);
-                    if (levels_at(texels, batch.depth[k]) != 0) {
-                        cell = static_cast<std::uint32_t>(at.y0 * buffer.cells_across + at.x0);
-                        ++start[cell + 1];
+                    PlaceRange const at = texels_of(places_of_triangle(batch, static_cast<int>(k)), 0);
+                    if (levels_at(at, batch.depth[k]) != 0) {
+                        texel = static_cast<std::uint32_t>(at.y0 * buffer.map_size + at.x0);
+                        ++start[texel + 1];
                     }
                 }
-                buffer.block_cell[i + k] = cell;
+                buffer.block_texel[i + k] = texel;
             }
         }
-        for (std::uint32_t cell = 0; cell < cells; ++cell) start[cell + 1] += start[cell];
-        std::uint32_t const kept = start[cells];
+        for (std::uint32_t texel = 0; texel < texels; ++texel) start[texel + 1] += start[texel];
+        std::uint32_t const kept = start[texels];
         for (std::uint32_t i = 0; i < count; ++i)
-            if (buffer.block_cell[i] != nowhere_to_be) buffer.block_order[start[buffer.block_cell[i]]++] = begin + i;
+            if (buffer.block_texel[i] != texels) buffer.block_order[start[buffer.block_texel[i]]++] = begin + i;
         for (std::uint32_t i = 0; i < kept; i += lane_count) {
             load(i, kept - i, buffer.block_order, batch);
             raise_volumes(batch);
             for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
                 int const k = lowest_bit(bits);
-                walk(batch, k, buffer.block_order[i + static_cast<std::uint32_t>(k)] + 1u);
+                walk(batch, k, buffer.block_order[i + static_cast<std::uint32_t>(k)] + 1u, queue);
             }
         }
     }
@@ -8627,12 +8843,13 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     // All along a ray of a sun w is that of the receiver; toward a lamp it falls to 0.
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
     T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
-    detail::TraceKernel<Lanes> const kernel{buffer, casters, Lanes::load(column), Lanes::load(row), w_floor};
+    PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
+    detail::TraceKernel<Lanes> const kernel{buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
     typename detail::TraceKernel<Lanes>::Batch batch;
+    typename detail::TraceKernel<Lanes>::Queue queue;
     for (std::uint32_t done = 0; done < count;) {
-        std::uint32_t const block =
-            count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
-        kernel.run_block(first + done, block, batch);
+        std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
+        kernel.run_block(first + done, block, batch, queue);
         done += block;
     }
 }
@@ -8649,8 +8866,7 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
             std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
             continue;
         }
-        std::uint32_t const* in = buffer.mask +
-                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
+        std::uint32_t const* in = buffer.mask + static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
                                   row % tile_side * tile_side;
         for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
             int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
@@ -8700,6 +8916,8 @@ struct GpuIrregular {
     GpuPixelFrame frame;
     Vec3<float> light_at{0.0f};
     std::int32_t parallel = 1;
+    Vec3<float> source{0.0f};  // world: how the light travels, or where it stands
+    float unused_light = 0.0f;
     Vec4<float> row[4]{};
     Vec4<float> seen[4]{};
     float texel_error = 0.0f;
@@ -8718,20 +8936,21 @@ struct GpuIrregular {
     std::uint32_t unused[3] = {};
 };
 static_assert(offsetof(GpuIrregular, light_at) == 112 && offsetof(GpuIrregular, parallel) == 124);
-static_assert(offsetof(GpuIrregular, row) == 128 && offsetof(GpuIrregular, seen) == 192);
-static_assert(offsetof(GpuIrregular, texel_error) == 256 && offsetof(GpuIrregular, ray) == 272);
-static_assert(offsetof(GpuIrregular, w_min) == 288 && offsetof(GpuIrregular, node_capacity) == 304);
-static_assert(sizeof(GpuIrregular) == 320);
+static_assert(offsetof(GpuIrregular, source) == 128);
+static_assert(offsetof(GpuIrregular, row) == 144 && offsetof(GpuIrregular, seen) == 208);
+static_assert(offsetof(GpuIrregular, texel_error) == 272 && offsetof(GpuIrregular, ray) == 288);
+static_assert(offsetof(GpuIrregular, w_min) == 304 && offsetof(GpuIrregular, node_capacity) == 320);
+static_assert(sizeof(GpuIrregular) == 336);
 
 // Faults leave `gpu` as it was: those of the frame and the light, bad_projection where the grid is not a map of this
-// light, map_too_small for a grid outside [1, 2^14].
+// light, map_too_small for a grid outside [1, largest_grid].
 [[nodiscard]] inline Faults gpu_irregular(PixelFrame<float> const& frame, Light<float> const& light,
                                           ShadowMap<float> const& grid, int map_size, GpuIrregular& gpu) noexcept {
     IrregularBuffer<float> buffer;
     buffer.frame = frame;
     buffer.map_size = map_size;
     Faults faults = frame.faults | faults_of(light);
-    if (map_size < 1 || map_size > 1 << 14) faults |= Fault::map_too_small;
+    if (map_size < 1 || map_size > largest_grid) faults |= Fault::map_too_small;
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
@@ -8744,6 +8963,7 @@ static_assert(sizeof(GpuIrregular) == 320);
                     frame.to_inward, 0.0f};
     filled.light_at = buffer.light.at;
     filled.parallel = buffer.light.parallel ? 1 : 0;
+    filled.source = buffer.light.parallel ? light.direction : light.position;
     for (int i = 0; i < 4; ++i) {
         PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
         filled.row[i] = buffer.row[i];
