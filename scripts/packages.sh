@@ -28,7 +28,7 @@ all_packages=(
     g++-aarch64-linux-gnu qemu-user-static                       # another processor
     emscripten nodejs                                            # and WebAssembly
     g++-mingw-w64-x86-64-posix libx11-dev                        # the real windows.h and Xlib.h
-    gcovr                                                        # which lines and branches the tests reach
+    gcovr python3                                                # which lines the tests reach; mutants
 )
 
 bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev nlohmann-json3-dev)

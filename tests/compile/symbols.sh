@@ -12,9 +12,11 @@ functions=$(nm --defined-only symbols.o | wc -l)
 
 roots='sqrt|cbrt|hypot|pow|exp2?|expm1|log(2|10|1p)?|ldexp|frexp'
 angles='a?(sin|cos|tan)h?|atan2'
+processor='__cpu_model|__cpu_indicator_init'  # libgcc's: which instructions it has
 rounding='floor|ceil|round|trunc|rint|nearbyint|fmod|fmin|fmax|fabs'
+compiler='mem(cpy|cmp|set|move)|_GLOBAL_OFFSET_TABLE_|__stack_chk_fail'
 others=$(nm -u symbols.o | awk '{ print $NF }' |
-    grep -Evx "($roots|$angles|$rounding)[fl]?|mem(cpy|cmp|set|move)|_GLOBAL_OFFSET_TABLE_|__stack_chk_fail" || true)
+    grep -Evx "($roots|$angles|$rounding)[fl]?|$compiler|$processor" || true)
 [ -z "$others" ] || { printf 'Not among the few that a drop-in may need:\n%s\n' "$others" | c++filt; exit 1; }
 state=$(objdump -t symbols.o | awk '/ O \.(data|bss|tdata|tbss)/ && !/\.rel\.ro/ { print $NF }')
 [ -z "$state" ] || { printf 'Variables:\n%s\n' "$state" | c++filt; exit 1; }

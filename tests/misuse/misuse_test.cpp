@@ -8,6 +8,7 @@
 #define SHADOWMATH_ASSERT(condition, sentence) \
     static_cast<void>((condition) || (std::fprintf(stderr, "%s\n", sentence), std::abort(), false))
 
+#include <shadowmath/irregular.hpp>
 #include <shadowmath/shadowmath.hpp>
 
 #include <gtest/gtest.h>
@@ -81,4 +82,35 @@ TEST_F(MisuseDeathTest, JudgingWithoutSamplesAsserts) {
 TEST_F(MisuseDeathTest, ASeventhFaceOfACubeAsserts) {
     EXPECT_DEATH((void)face_light(glm::dvec3(0), 1.0, 6), "a cube has six faces");
     EXPECT_DEATH((void)face_light(glm::dvec3(0), 1.0, -1), "a cube has six faces");
+
+TEST_F(MisuseDeathTest, SamplesThatAreNotThereAssert) {
+    ViewVolume<double> const view;
+    SurfacePoint<double> const* const none = nullptr;
+    EXPECT_DEATH((void)judge(Cascades<double>{}, 512, view, glm::dvec2(640, 480), none, 4), "judge needs its samples");
+    EXPECT_DEATH((void)least_squares_plane(view, none, 4), "a plane needs its samples");
+    EXPECT_DEATH((void)median_plane(glm::dvec3(0, 1, 0), none, 4), "a plane needs its samples");
+    EXPECT_DEATH((void)plane_distortion(ShadowPlane<double>{}, view, Light<double>{}, none, 4),
+                 "a plane needs its samples");
+}
+
+TEST_F(MisuseDeathTest, PointsThatAreNotThereAssert) {
+    glm::vec3 const point(0);
+    EXPECT_DEATH(clip_points<float>(glm::mat4(1.0f), &point, 1, nullptr), "clip_points needs two arrays");
+    clip_points<float>(glm::mat4(1.0f), nullptr, 0, nullptr);
+}
+
+TEST_F(MisuseDeathTest, ASeventhFaceOfACubeAsserts) {
+    for (int const face : {-1, 6})
+        EXPECT_DEATH((void)face_light(glm::vec3(0), 10.0f, face), "a cube has six faces") << face;
+}
+
+TEST_F(MisuseDeathTest, IrregularListsWithoutTheirArraysAssert) {
+    EXPECT_DEATH((void)list_receivers(PixelFrame<float>{}, Receivers<float>{}, Light<float>{}, ShadowMap<float>{}, 64,
+                                      Storage<float>{}),
+                 "receivers need a normal, and a position or a depth");
+    IrregularBuffer<float> buffer;
+    buffer.levels_used = 1;
+    Casters<float> casters;
+    casters.triangle_count = casters.vertex_count = 3;
+    EXPECT_DEATH(trace(buffer, casters), "casters need positions");
 }
