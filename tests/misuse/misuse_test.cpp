@@ -68,21 +68,6 @@ TEST_F(MisuseDeathTest, CullingWithoutMapsOrArraysAsserts) {
     caster_masks(CasterMaps<float>{}, BoxArrays<float>{}, 0, nullptr);
 }
 
-TEST_F(MisuseDeathTest, JudgingWithoutSamplesAsserts) {
-    SurfacePoint<double> const* const none = nullptr;
-    glm::dvec2 const pixels(100);
-    EXPECT_DEATH((void)judge(Cascades<double>{}, 64, ViewVolume<double>{}, pixels, none, 1), "judge needs its samples");
-    EXPECT_EQ(judge(Cascades<double>{}, 64, ViewVolume<double>{}, pixels, none, 0).all.count, 0);
-    EXPECT_DEATH((void)least_squares_plane(ViewVolume<double>{}, none, 3), "a plane needs its samples");
-    EXPECT_DEATH((void)median_plane(glm::dvec3(0, 1, 0), none, 3), "a plane needs its samples");
-    EXPECT_DEATH((void)plane_distortion(ShadowPlane<double>{}, ViewVolume<double>{}, Light<double>{}, none, 3),
-                 "a plane needs its samples");
-}
-
-TEST_F(MisuseDeathTest, ASeventhFaceOfACubeAsserts) {
-    EXPECT_DEATH((void)face_light(glm::dvec3(0), 1.0, 6), "a cube has six faces");
-    EXPECT_DEATH((void)face_light(glm::dvec3(0), 1.0, -1), "a cube has six faces");
-
 TEST_F(MisuseDeathTest, SamplesThatAreNotThereAssert) {
     ViewVolume<double> const view;
     SurfacePoint<double> const* const none = nullptr;
