@@ -81,9 +81,9 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
-    Vec2<T> const scale = T(2) / (region.hi - region.lo);
-    Vec2<T> const offset = -(region.hi + region.lo) / (region.hi - region.lo);
-    if (!all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
+    Vec2<T> const size = region.hi - region.lo;
+    Vec2<T> const scale = T(2) / size, offset = -(region.hi + region.lo) / size;
+    if (!all_finite(size) || !all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
     return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
                      Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }
