@@ -7,6 +7,7 @@
 
 #include "backends/backend.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -60,6 +61,41 @@ namespace shadowmath::backend {
         if (!is_finite(frame.maps[static_cast<std::size_t>(i)].clip_from_world))
             return "scene pass: map " + std::to_string(i) + " has a matrix that is not finite";
     return {};
+}
+
+[[nodiscard]] inline std::string fault_of(DepthPass const& maps, ScenePass const& view, std::size_t object_count) {
+    if (std::string const fault = fault_of(maps, object_count); !fault.empty()) return fault;
+    if (std::string const fault = fault_of(view, static_cast<int>(maps.layers.size())); !fault.empty()) return fault;
+    if (std::size_t(view.frame.map_count) != maps.layers.size())
+        return "split by split: " + std::to_string(maps.layers.size()) + " maps are drawn, but " +
+               std::to_string(view.frame.map_count) + " are read";
+    if (maps.fitted || view.fitted) return "split by split: the splits of a fit are known to the device alone";
+    if (view.frame.choice != MapChoice::by_depth) return "split by split: the maps are not chosen by depth";
+    if (!view.shown.empty() && view.shown.size() != maps.layers.size() + 1)
+        return "split by split: " + std::to_string(view.shown.size()) +
+               " lists of what is shown, not one a map and one";
+    for (auto const& shown : view.shown)
+        for (std::uint32_t const object : shown)
+            if (object >= object_count)
+                return "split by split: shows object " + std::to_string(object) + ", which is not there";
+    return {};
+}
+
+[[nodiscard]] inline std::string fault_of(FitPass const& pass) {
+    if (pass.extent.width <= 0 || pass.extent.height <= 0) return "fit: the extent is empty";
+    if (!is_finite(pass.clip_from_world)) return "fit: the eye's matrix is not finite";
+    for (ComputeStep const& step : pass.steps)
+        if (step.shader == nullptr) return "fit: a step has no shader";
+    return {};
+}
+
+[[nodiscard]] inline std::string fault_of_fitted(bool fitted, bool there_is_a_fit) {
+    return fitted && !there_is_a_fit ? "a pass takes fitted maps, but none were fitted" : std::string();
+}
+
+[[nodiscard]] inline std::string fault_of(DrawWay way, std::span<DrawWay const> ways) {
+    if (std::ranges::find(ways, way) != ways.end()) return {};
+    return std::string("depth pass: this driver cannot draw maps by ") + name_of(way);
 }
 
 // For backends that draw.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash disable=SC2034
 #
-# Sourced by scripts/demo and scripts/test: what each needs of Debian, once, and how it gets there.
+# Sourced by scripts/demo, scripts/test and scripts/bench: what each needs of Debian, once, and how it gets there.
 
 demo_packages=(
     g++ cmake ninja-build
@@ -18,9 +18,20 @@ test_packages=(
     libgtest-dev librapidcheck-dev
     vulkan-validationlayers                                      # watch every call of the Vulkan backend
     clang clang-format                                           # the second compiler, the layout of the code
+    libclang-rt-14-dev                                           # sanitizers and libFuzzer
+    codespell gdb                                                # spelling; the pretty-printers are tried in a debugger
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery
 )
+all_packages=(
+    clang-19                                                     # the newest compiler
+    g++-aarch64-linux-gnu qemu-user-static                       # another processor
+    emscripten nodejs                                            # and WebAssembly
+    g++-mingw-w64-x86-64-posix libx11-dev                        # the real windows.h and Xlib.h
+    gcovr python3                                                # which lines the tests reach; mutants
+)
+
+bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev nlohmann-json3-dev)
 
 # Installs what is missing of the packages given, or prints the line that does and fails.
 install_packages() {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "backends/gl/gl_backend.hpp"
 
+#include "backends/constants.hpp"
+#include "backends/gl/compute.hpp"
 #include "backends/gl/context.hpp"
+#include "backends/gl/listen.hpp"
 #include "backends/gl/objects.hpp"
-#include "backends/index_ranges.hpp"
+#include "backends/gl/statistics.hpp"
 #include "backends/pass_check.hpp"
+#include "backends/shaders/embedded.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -17,42 +21,39 @@ namespace {
 
 using namespace gl;
 
-// Uniform blocks lie at multiples of 256 bytes, the coarsest alignment that the specification lets a driver ask for.
-struct alignas(256) MapBlock {
-    glm::mat4 clip_from_world;
-};
-struct alignas(256) FrameBlock {
-    FrameConstants frame;
-};
-
-void draw(Procs const& gl, IndexRanges const& ranges) {
-    std::vector<GLsizei> counts;
-    std::vector<void const*> offsets;
-    for (IndexRange const& range : ranges) {
-        counts.push_back(static_cast<GLsizei>(range.count));
-        offsets.push_back(reinterpret_cast<void const*>(std::uintptr_t{range.first} * sizeof(std::uint32_t)));
-    }
-    if (!counts.empty())
-        gl.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
-                             static_cast<GLsizei>(counts.size()));
-}
-
 // All that belongs to the context and dies before it.
 struct Resources {
     explicit Resources(Procs const& gl)
-        : vertices(make_buffer(gl)), indices(make_buffer(gl)), constants(make_buffer(gl)),
-          geometry(make_vertex_array(gl)), depth_program(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_vert}})),
-          receive_program(make_program(
-              gl, {{GL_VERTEX_SHADER, shaders::receive_vert}, {GL_FRAGMENT_SHADER, shaders::receive_frag}})) {}
+        : vertices(make_buffer(gl)), indices(make_buffer(gl)), numbers(make_buffer(gl)), constants(make_buffer(gl)),
+          draws(make_buffer(gl)), geometry(make_vertex_array(gl)), compute(gl),
+          depth(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_vert}})),
+          depth_clones(make_program(
+              gl, {{GL_VERTEX_SHADER, shaders::depth_clones_vert}, {GL_GEOMETRY_SHADER, shaders::depth_clones_geom}})),
+          receive(make_program(
+              gl, {{GL_VERTEX_SHADER, shaders::receive_vert}, {GL_FRAGMENT_SHADER, shaders::receive_frag}})) {
+        if (gl.has_extension("GL_ARB_shader_viewport_layer_array"))
+            depth_instances = make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_instances_vert}});
+        if (gl.has_extension("GL_ARB_pipeline_statistics_query")) statistics.emplace(gl);
+    }
 
-    Buffer vertices, indices, constants;
+    [[nodiscard]] GLuint depth_program(DrawWay way) const {
+        return way == DrawWay::geometry_clones ? depth_clones : way == DrawWay::instances ? depth_instances : depth;
+    }
+
+    Buffer vertices, indices, numbers, constants, draws;
     VertexArray geometry;
-    Program depth_program, receive_program;
+    Compute compute;
+    Program depth, depth_clones, depth_instances, receive;  // depth_instances: 0 where the driver has no such shaders
+    std::optional<Statistics> statistics;
 
     Texture maps;  // an array, one layer a map
     Framebuffer map_target;
-    Texture colour, position, normal, depth;  // the last frame
+    Texture colour, position, normal, frame_depth;  // the last frame
     Framebuffer frame_target;
+
+    Texture eye_depth;  // what the last fit looked at: an array of one layer
+    Framebuffer eye_target;
+    std::optional<Storage> fit_state, fitted_maps;
 };
 
 class GlBackend final : public Backend {
@@ -61,7 +62,7 @@ public:
         Current const current(*context_);
         gl_.emplace([this](char const* name) { return context_->proc(name); });
         if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
-        listen();
+        listen(*gl_, messages_);
         resources_.emplace(*gl_);
         describe_vertices();
         prepare_maps(1, 1);  // the receiver's sampler always has a texture
@@ -87,6 +88,12 @@ public:
                 takes_spirv(*gl_, shaders::depth_vert) ? "SPIR-V" : "GLSL"};
     }
 
+    std::vector<DrawWay> ways() const override {
+        std::vector<DrawWay> ways{DrawWay::pass_per_map, DrawWay::geometry_clones};
+        if (resources_->depth_instances != 0u) ways.push_back(DrawWay::instances);
+        return ways;
+    }
+
     void upload(Scene const& scene) override {
         demand_none(fault_of(scene));
         Current const current(*context_);
@@ -99,53 +106,83 @@ public:
         objects_ = scene.objects;
     }
 
-    double draw_depth(DepthPass const& pass) override {
+    DrawWork draw_depth(DepthPass const& pass) override {
         demand_none(fault_of(pass, objects_.size()));
+        demand_none(fault_of(pass.way, ways()));
+        demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
         Current const current(*context_);
-        auto const layer_count = static_cast<int>(pass.layers.size());
-        prepare_maps(pass.map_size, layer_count);
+        prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
 
-        std::array<MapBlock, max_maps> blocks{};
-        std::array<IndexRanges, max_maps> ranges;
-        for (std::size_t i = 0; i < pass.layers.size(); ++i) {
-            blocks[i].clip_from_world = pass.layers[i].clip_from_world;
-            for (std::uint32_t const object : pass.layers[i].objects) append(ranges[i], objects_[object]);
-        }
-
-        return timed([&] {
-            write_constants(blocks);
-            begin(resources_->map_target, {pass.map_size, pass.map_size}, resources_->depth_program);
-            if (pass.depth_clamp) gl_->Enable(GL_DEPTH_CLAMP);
-            for (int i = 0; i < layer_count; ++i) {
-                gl_->NamedFramebufferTextureLayer(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0, i);
-                clear_depth(resources_->map_target);
-                bind_constants<MapBlock>(i);
-                backend::draw(*gl_, ranges[static_cast<std::size_t>(i)]);
-            }
-            gl_->Disable(GL_DEPTH_CLAMP);
+        std::vector<DrawGroup> const groups = plan_draws(pass, objects_);
+        Constants constants;
+        constants.set(pass.layers);
+        return timed(work_of(pass.way, groups), [&] {
+            write_constants(constants);
+            if (pass.fitted) take_fitted(Constants::copies_of_maps(pass.layers.size()));
+            for (DrawGroup const& group : groups) draw_group(pass, group);
         });
     }
 
-    // Objects that receive nothing are drawn by the same shader with no map to read.
-    double draw_scene(ScenePass const& pass) override {
+    DrawWork draw_scene(ScenePass const& pass) override {
         demand_none(fault_of(pass, layers_));
+        demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
         Current const current(*context_);
         prepare_frame(pass.extent);
 
-        std::array<FrameBlock, 2> blocks{FrameBlock{pass.frame}, FrameBlock{pass.frame}};
-        blocks[1].frame.map_count = 0;
-        std::array<IndexRanges, 2> ranges;
-        for (Object const& object : objects_) append(ranges[object.receives ? 0 : 1], object);
-
-        return timed([&] {
-            write_constants(blocks);
-            begin(resources_->frame_target, pass.extent, resources_->receive_program);
+        std::vector<ViewDraw> const views = plan_view(pass, objects_);
+        Constants constants;
+        constants.set(views);
+        return timed(work_of(views), [&] {
+            write_constants(constants);
+            if (pass.fitted) take_fitted(Constants::copies_of_frames(views.size()));
             clear_frame(pass.frame.sky);
-            gl_->BindTextureUnit(1, resources_->maps);
-            for (int i = 0; i < 2; ++i) {
-                bind_constants<FrameBlock>(i);
-                backend::draw(*gl_, ranges[static_cast<std::size_t>(i)]);
+            begin_view();
+            for (std::size_t i = 0; i < views.size(); ++i) draw_view(views[i], i);
+        });
+    }
+
+    DrawWork draw_split_by_split(DepthPass const& pass, ScenePass const& view) override {
+        demand_none(fault_of(pass, view, objects_.size()));
+        DepthPass maps = pass;
+        maps.way = DrawWay::pass_per_map;
+        Current const current(*context_);
+        prepare_maps(maps.map_size, 1);
+        prepare_frame(view.extent);
+
+        SplitPlan const plan = plan_split_by_split(maps, view, objects_);
+        Constants constants;
+        constants.set(maps.layers);
+        constants.set(plan.views);
+        return timed(work_of(plan), [&] {
+            write_constants(constants);
+            clear_frame(view.frame.sky);
+            for (std::size_t i = 0; i < plan.views.size(); ++i) {
+                if (i < plan.maps.size()) {
+                    draw_group(maps, plan.maps[i]);
+                    begin_view();
+                }
+                draw_view(plan.views[i], i);
             }
+        });
+    }
+
+    DrawWork fit_maps(FitPass const& pass) override {
+        demand_none(fault_of(pass));
+        Current const current(*context_);
+        prepare_fit(pass);
+
+        ViewDraw eye;
+        for (Object const& object : objects_) append(eye.draws, object);
+        DepthLayer const layer{pass.clip_from_world, {}};
+        Constants constants;
+        constants.set(std::span(&layer, 1));
+        return timed(work_of(std::span(&eye, 1)), [&] {
+            write_constants(constants);
+            draw_eye_depth(pass.extent, eye.draws);
+            gl_->BindTextureUnit(3, resources_->eye_depth);
+            for (ComputeStep const& step : pass.steps)
+                resources_->compute.run(
+                    {step.shader, step.groups, {*resources_->fit_state, *resources_->fitted_maps}, {}, pass.constants});
         });
     }
 
@@ -172,27 +209,29 @@ public:
         return frame;
     }
 
+    Image<float> read_eye_depth() override {
+        Current const current(*context_);
+        Image<float> image(fit_extent_);
+        if (!image.pixels.empty())
+            gl_->GetTextureImage(resources_->eye_depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, byte_count(image),
+                                 image.pixels.data());
+        return image;
+    }
+
+    std::vector<MapConstants> read_fit() override {
+        demand_none(fault_of_fitted(true, resources_->fitted_maps.has_value()));
+        Current const current(*context_);
+        std::vector<MapConstants> maps(max_maps);
+        resources_->compute.read(*resources_->fitted_maps, std::as_writable_bytes(std::span(maps)));
+        return maps;
+    }
+
     std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
 
 private:
     template <class Pixel>
     static GLsizei byte_count(Image<Pixel> const& image) {
         return static_cast<GLsizei>(image.pixels.size() * sizeof(Pixel));
-    }
-
-    // Keeps what the driver complains of; its notes on where a buffer lies are no complaint.
-    void listen() {
-        GLDEBUGPROC const keep = [](GLenum, GLenum type, GLuint, GLenum severity, GLsizei, GLchar const* text,
-                                    void const* backend) {
-            bool const always = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR ||
-                                type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR || type == GL_DEBUG_TYPE_PORTABILITY;
-            if (always || severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
-                static_cast<GlBackend*>(const_cast<void*>(backend))->messages_.emplace_back(text);
-        };
-        gl_->Enable(GL_DEBUG_OUTPUT);
-        gl_->Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-        gl_->DebugMessageCallback(keep, this);
-        gl_->DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     }
 
     void describe_vertices() {
@@ -207,6 +246,13 @@ private:
         attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
         attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
         attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, albedo));
+
+        gl_->NamedBufferData(resources_->numbers, sizeof(instance_numbers), instance_numbers.data(), GL_STATIC_DRAW);
+        gl_->VertexArrayVertexBuffer(geometry, 1, resources_->numbers, 0, sizeof(std::uint32_t));
+        gl_->VertexArrayBindingDivisor(geometry, 1, 1);
+        gl_->EnableVertexArrayAttrib(geometry, 3);
+        gl_->VertexArrayAttribIFormat(geometry, 3, 1, GL_UNSIGNED_INT, 0);
+        gl_->VertexArrayAttribBinding(geometry, 3, 1);
     }
 
     void prepare_maps(int size, int layers) {
@@ -235,7 +281,7 @@ private:
         attach(resources_->colour, GL_SRGB8_ALPHA8, GL_COLOR_ATTACHMENT0);
         attach(resources_->position, GL_RGBA32F, GL_COLOR_ATTACHMENT1);
         attach(resources_->normal, GL_RGBA32F, GL_COLOR_ATTACHMENT2);
-        attach(resources_->depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
+        attach(resources_->frame_depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
         constexpr std::array<GLenum, 3> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
         gl_->NamedFramebufferDrawBuffers(resources_->frame_target, 3, outputs.data());
         demand_complete(resources_->frame_target,
@@ -243,20 +289,95 @@ private:
         extent_ = extent;
     }
 
+    void prepare_fit(FitPass const& pass) {
+        if (pass.extent.width != fit_extent_.width || pass.extent.height != fit_extent_.height) {
+            fit_extent_ = {};
+            resources_->eye_depth = make_texture(*gl_, GL_TEXTURE_2D_ARRAY);
+            gl_->TextureStorage3D(resources_->eye_depth, 1, GL_DEPTH_COMPONENT32F, pass.extent.width,
+                                  pass.extent.height, 1);
+            gl_->TextureParameteri(resources_->eye_depth, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            gl_->TextureParameteri(resources_->eye_depth, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+            resources_->eye_target = make_framebuffer(*gl_);
+            gl_->NamedFramebufferTextureLayer(resources_->eye_target, GL_DEPTH_ATTACHMENT, resources_->eye_depth, 0, 0);
+            demand_complete(resources_->eye_target, "the depth that the eye sees");
+            fit_extent_ = pass.extent;
+        }
+        if (!resources_->fit_state || state_bytes_ != pass.state_bytes)
+            resources_->fit_state = resources_->compute.make_storage(pass.state_bytes);
+        state_bytes_ = pass.state_bytes;
+        if (!resources_->fitted_maps && !pass.steps.empty())
+            resources_->fitted_maps = resources_->compute.make_storage(max_maps * sizeof(MapConstants));
+    }
+
+    void draw_eye_depth(Extent extent, std::span<Draw const> draws) const {
+        constexpr float nothing = 0.0f;
+        begin(resources_->eye_target, extent, resources_->depth);
+        bind_constants<MapBlock>(Constants::offset_of_map(0));
+        gl_->ClearNamedFramebufferfv(resources_->eye_target, GL_DEPTH, 0, &nothing);
+        gl_->DepthFunc(GL_GREATER);
+        draw(draws);
+        gl_->DepthFunc(GL_LESS);
+    }
+
+    void take_fitted(std::vector<BlockCopy> const& copies) const {
+        GLuint const from = resources_->compute.buffer(*resources_->fitted_maps);
+        for (BlockCopy const& copy : copies)
+            gl_->CopyNamedBufferSubData(from, resources_->constants, static_cast<GLintptr>(copy.from),
+                                        static_cast<GLintptr>(copy.to), static_cast<GLsizeiptr>(copy.size));
+    }
+
     void demand_complete(GLuint framebuffer, std::string const& what) const {
         if (gl_->CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
             throw std::runtime_error("the driver cannot hold " + what);
     }
 
-    template <class Blocks>
-    void write_constants(Blocks const& blocks) const {
-        gl_->NamedBufferData(resources_->constants, sizeof(blocks), blocks.data(), GL_STREAM_DRAW);
+    void write_constants(Constants const& constants) const {
+        gl_->NamedBufferData(resources_->constants, sizeof(constants), &constants, GL_STREAM_DRAW);
     }
 
     template <class Block>
-    void bind_constants(int index) const {
-        gl_->BindBufferRange(GL_UNIFORM_BUFFER, 0, resources_->constants, index * GLintptr{sizeof(Block)},
-                             sizeof(Block));
+    void bind_constants(std::size_t offset) const {
+        gl_->BindBufferRange(GL_UNIFORM_BUFFER, 0, resources_->constants, static_cast<GLintptr>(offset), sizeof(Block));
+    }
+
+    // One submission, however many ranges.
+    void draw(std::span<Draw const> draws) const {
+        if (draws.empty()) return;
+        gl_->NamedBufferData(resources_->draws, static_cast<GLsizeiptr>(draws.size_bytes()), draws.data(),
+                             GL_STREAM_DRAW);
+        gl_->BindBuffer(GL_DRAW_INDIRECT_BUFFER, resources_->draws);
+        gl_->MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(draws.size()), 0);
+    }
+
+    // Clears its maps and draws them.
+    void draw_group(DepthPass const& pass, DrawGroup const& group) const {
+        bool const layered = pass.way != DrawWay::pass_per_map;
+        auto const map = static_cast<std::size_t>(std::countr_zero(group.maps));
+        begin(resources_->map_target, {pass.map_size, pass.map_size}, resources_->depth_program(pass.way));
+        if (layered) {
+            gl_->NamedFramebufferTexture(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0);
+            bind_constants<MapsBlock>(Constants::offset_of_maps(0));
+        } else {
+            int const layer = static_cast<int>(map) % layers_;  // a lone layer serves every map in turn
+            gl_->NamedFramebufferTextureLayer(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0, layer);
+            bind_constants<MapBlock>(Constants::offset_of_map(map));
+        }
+        clear_depth(resources_->map_target);
+        if (pass.depth_clamp) gl_->Enable(GL_DEPTH_CLAMP);
+        draw(group.draws);
+        gl_->Disable(GL_DEPTH_CLAMP);
+    }
+
+    void begin_view() const {
+        begin(resources_->frame_target, extent_, resources_->receive);
+        gl_->BindTextureUnit(1, resources_->maps);
+    }
+
+    void draw_view(ViewDraw const& view, std::size_t index) const {
+        bind_constants<FrameBlock>(Constants::offset_of_frame(index));
+        gl_->DepthRange(double(view.z_begin), double(view.z_end));
+        draw(view.draws);
+        gl_->DepthRange(0.0, 1.0);
     }
 
     void begin(GLuint framebuffer, Extent extent, GLuint program) const {
@@ -280,13 +401,16 @@ private:
         clear_depth(resources_->frame_target);
     }
 
-    template <class Draw>
-    double timed(Draw const& draw) const {
+    template <class Do>
+    [[nodiscard]] DrawWork timed(DrawWork work, Do const& draw_all) const {
+        if (resources_->statistics) resources_->statistics->begin();
         gl_->Finish();
         auto const begun = std::chrono::steady_clock::now();
-        draw();
+        draw_all();
         gl_->Finish();
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+        work.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+        if (resources_->statistics) work.driver = resources_->statistics->end();
+        return work;
     }
 
     std::vector<std::string> messages_;
@@ -296,7 +420,8 @@ private:
     std::vector<Object> objects_;
     int map_size_ = 0;
     int layers_ = 0;
-    Extent extent_;
+    Extent extent_, fit_extent_;
+    std::size_t state_bytes_ = 0;
 };
 
 }  // namespace

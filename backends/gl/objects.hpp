@@ -5,7 +5,7 @@
 
 #include "backends/gl/procs.hpp"
 
-#include "backends/shaders/embedded.hpp"
+#include "backends/shaders/shader.hpp"
 
 #include <initializer_list>
 #include <string>
@@ -47,6 +47,7 @@ using Texture = Name<&Procs::DeleteTextures>;
 using Framebuffer = Name<&Procs::DeleteFramebuffers>;
 using Shader = Name<&Procs::DeleteShader>;
 using Program = Name<&Procs::DeleteProgram>;
+using Query = Name<&Procs::DeleteQueries>;
 
 [[nodiscard]] inline Buffer make_buffer(Procs const& gl) {
     GLuint name = 0u;
@@ -69,6 +70,13 @@ using Program = Name<&Procs::DeleteProgram>;
 [[nodiscard]] inline Framebuffer make_framebuffer(Procs const& gl) {
     GLuint name = 0u;
     gl.CreateFramebuffers(1, &name);
+    return {gl, name};
+}
+
+// Not by glCreateQueries: Mesa 22.3 knows no statistics there.
+[[nodiscard]] inline Query make_query(Procs const& gl) {
+    GLuint name = 0u;
+    gl.GenQueries(1, &name);
     return {gl, name};
 }
 

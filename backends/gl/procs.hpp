@@ -16,19 +16,23 @@
 // clang-format off
 #define SHADOWMATH_GL_PROCS(X)                                                                                      \
     X(GetString) X(GetStringi) X(GetIntegerv) X(Enable) X(Disable) X(Finish)                                        \
-    X(Viewport) X(DepthFunc) X(ClipControl) X(ProvokingVertex) X(DebugMessageCallback) X(DebugMessageControl)       \
+    X(Viewport) X(DepthRange) X(DepthFunc) X(ClipControl) X(ProvokingVertex)                                        \
+    X(DebugMessageCallback) X(DebugMessageControl)                                                                  \
     X(CreateShader) X(ShaderSource) X(ShaderBinary) X(CompileShader) X(GetShaderiv) X(GetShaderInfoLog)             \
     X(DeleteShader)                                                                                                 \
     X(CreateProgram) X(AttachShader) X(LinkProgram) X(GetProgramiv) X(GetProgramInfoLog) X(UseProgram)              \
     X(DeleteProgram)                                                                                                \
-    X(CreateBuffers) X(NamedBufferData) X(BindBufferRange) X(DeleteBuffers)                                         \
+    X(CreateBuffers) X(NamedBufferData) X(NamedBufferSubData) X(GetNamedBufferSubData) X(CopyNamedBufferSubData)    \
+    X(BindBuffer) X(BindBufferBase) X(BindBufferRange) X(DeleteBuffers)                                             \
     X(CreateVertexArrays) X(VertexArrayVertexBuffer) X(VertexArrayElementBuffer) X(EnableVertexArrayAttrib)         \
-    X(VertexArrayAttribFormat) X(VertexArrayAttribBinding) X(BindVertexArray) X(DeleteVertexArrays)                 \
+    X(VertexArrayAttribFormat) X(VertexArrayAttribIFormat) X(VertexArrayAttribBinding) X(VertexArrayBindingDivisor) \
+    X(BindVertexArray) X(DeleteVertexArrays)                                                                        \
     X(CreateTextures) X(TextureStorage2D) X(TextureStorage3D) X(TextureParameteri) X(BindTextureUnit)               \
-    X(GetTextureImage) X(GetTextureSubImage) X(DeleteTextures)                                                      \
+    X(TextureSubImage3D) X(GetTextureImage) X(GetTextureSubImage) X(DeleteTextures)                                 \
     X(CreateFramebuffers) X(NamedFramebufferTexture) X(NamedFramebufferTextureLayer) X(NamedFramebufferDrawBuffers) \
     X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(BindFramebuffer) X(DeleteFramebuffers)              \
-    X(MultiDrawElements)
+    X(GenQueries) X(BeginQuery) X(EndQuery) X(GetQueryObjectui64v) X(DeleteQueries)                                 \
+    X(MultiDrawElementsIndirect) X(DispatchCompute) X(MemoryBarrier)
 // clang-format on
 
 namespace shadowmath::backend::gl {

@@ -2,6 +2,7 @@
 #include "backends/null/null_backend.hpp"
 
 #include "backends/pass_check.hpp"
+#include "backends/view_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,13 @@ std::uint8_t srgb_from_linear(float linear) {
     return static_cast<std::uint8_t>(std::lround(255.0f * encoded));
 }
 
+DrawDepthCall record(DepthPass const& pass) {
+    DrawDepthCall call{pass.map_size, pass.depth_clamp, {}, pass.way};
+    for (DepthLayer const& layer : pass.layers)
+        call.layers.push_back({layer.clip_from_world, {layer.objects.begin(), layer.objects.end()}});
+    return call;
+}
+
 }  // namespace
 
 bool NullBackend::accept(std::string const& fault) {
@@ -25,25 +33,55 @@ bool NullBackend::accept(std::string const& fault) {
 
 void NullBackend::upload(Scene const& scene) {
     calls_.emplace_back(UploadCall{scene.name, scene.objects.size()});
-    object_count_ = accept(fault_of(scene)) ? scene.objects.size() : 0;
+    objects_ = accept(fault_of(scene)) ? scene.objects : std::vector<Object>{};
 }
 
-double NullBackend::draw_depth(DepthPass const& pass) {
-    DrawDepthCall call{pass.map_size, pass.depth_clamp, {}};
-    for (DepthLayer const& layer : pass.layers)
-        call.layers.push_back({layer.clip_from_world, {layer.objects.begin(), layer.objects.end()}});
-    calls_.emplace_back(std::move(call));
-    bool const accepted = accept(fault_of(pass, object_count_));
+DrawWork NullBackend::draw_depth(DepthPass const& pass) {
+    calls_.emplace_back(record(pass));
+    bool const accepted =
+        accept(fault_of(pass, objects_.size())) && accept(fault_of_fitted(pass.fitted, there_is_a_fit_));
     map_size_ = accepted ? pass.map_size : 0;
     layers_ = accepted ? static_cast<int>(pass.layers.size()) : 0;
-    return 0.0;
+    return accepted ? work_of(pass.way, plan_draws(pass, objects_)) : DrawWork{};
 }
 
-double NullBackend::draw_scene(ScenePass const& pass) {
+DrawWork NullBackend::draw_scene(ScenePass const& pass) {
     calls_.emplace_back(DrawSceneCall{pass});
-    extent_ = accept(fault_of(pass, layers_)) ? pass.extent : Extent{};
+    bool const accepted = accept(fault_of(pass, layers_)) && accept(fault_of_fitted(pass.fitted, there_is_a_fit_));
+    extent_ = accepted ? pass.extent : Extent{};
     sky_ = pass.frame.sky;
-    return 0.0;
+    return accepted ? work_of(plan_view(pass, objects_)) : DrawWork{};
+}
+
+DrawWork NullBackend::draw_split_by_split(DepthPass const& maps, ScenePass const& view) {
+    calls_.emplace_back(DrawSplitBySplitCall{record(maps), view});
+    bool const accepted = accept(fault_of(maps, view, objects_.size()));
+    map_size_ = accepted ? maps.map_size : 0;
+    layers_ = accepted ? 1 : 0;
+    extent_ = accepted ? view.extent : Extent{};
+    sky_ = view.frame.sky;
+    return accepted ? work_of(plan_split_by_split(maps, view, objects_)) : DrawWork{};
+}
+
+DrawWork NullBackend::fit_maps(FitPass const& pass) {
+    calls_.emplace_back(FitMapsCall{pass.extent, pass.steps.size()});
+    bool const accepted = accept(fault_of(pass));
+    fit_extent_ = accepted ? pass.extent : Extent{};
+    there_is_a_fit_ = accepted && !pass.steps.empty();
+    ViewDraw eye;
+    for (Object const& object : objects_) append(eye.draws, object);
+    return accepted ? work_of(std::span(&eye, 1)) : DrawWork{};
+}
+
+Image<float> NullBackend::read_eye_depth() {
+    calls_.emplace_back(ReadEyeDepthCall{});
+    return Image<float>(fit_extent_, 0.0f);
+}
+
+std::vector<MapConstants> NullBackend::read_fit() {
+    calls_.emplace_back(ReadFitCall{});
+    accept(fault_of_fitted(true, there_is_a_fit_));
+    return std::vector<MapConstants>(max_maps);
 }
 
 Image<float> NullBackend::read_depth(int layer) {

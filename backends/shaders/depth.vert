@@ -2,7 +2,7 @@
 //
 // Draws casters into one shadow map. No fragment shader: depth is all that is kept.
 #version 450
-#include "transform.glsl"
+#include "shadowmath/glsl/tangent.glsl"
 
 layout(location = 0) in vec3 position;  // world
 
@@ -11,5 +11,5 @@ layout(std140, binding = 0) uniform Map {
 };
 
 void main() {
-    gl_Position = transformed(clip_from_world, position);
+    gl_Position = sm_transformed(clip_from_world, position);
 }

@@ -4,7 +4,6 @@
 // (Kwon 2002, section 4.4). Colours are linear; the sRGB attachment encodes them.
 #version 450
 #include "receive.glsl"
-#include "transform.glsl"
 #include "shadow.glsl"
 
 layout(location = 0) in vec3 position_from_eye;
@@ -51,6 +50,6 @@ void main() {
     vec3 direct = frame.light_colour.rgb * ((diffuse + specular) * spot * shadow.visibility);
 
     colour = vec4((frame.ambient.rgb + direct) * reflectance, 1.0);
-    position_and_map = vec4(point, float(shadow.map));
+    position_and_map = vec4(point, float(shadow.map < 0 ? shadow.map : frame.first_map + shadow.map));
     normal_and_visibility = vec4(plane_normal, shadow.visibility);
 }

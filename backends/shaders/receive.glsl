@@ -7,7 +7,6 @@ const int choose_by_depth = 0;
 
 struct MapConstants {
     mat4 clip_from_world;
-    float depth_begin;
     float depth_end;
     float blend_begin;
     float w_min;
@@ -33,6 +32,6 @@ layout(std140, binding = 0) uniform FrameConstants {
     float map_size;
     float specular;
     float specular_power;
-    float unused;
+    int first_map;
     MapConstants maps[max_maps];
 } frame;

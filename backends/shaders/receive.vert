@@ -4,7 +4,7 @@
 // the fragment shader takes the plane, exact far from the world's origin.
 #version 450
 #include "receive.glsl"
-#include "transform.glsl"
+#include "shadowmath/glsl/tangent.glsl"
 
 layout(location = 0) in vec3 position;  // world
 layout(location = 1) in vec3 normal;    // world, shading
@@ -18,5 +18,5 @@ void main() {
     position_from_eye = position - frame.eye_position.xyz;
     shading_normal = normal;
     reflectance = albedo.rgb;
-    gl_Position = transformed(frame.clip_from_world, position);
+    gl_Position = sm_transformed(frame.clip_from_world, position);
 }

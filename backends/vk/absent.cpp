@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
 // Stands in where Vulkan was not built, so that whoever offers a choice of backends needs no #ifdef.
-#include "backends/vk/vk_backend.hpp"
+#include "backends/compute.hpp"
 
 #include <stdexcept>
 
-std::unique_ptr<shadowmath::backend::Backend> shadowmath::backend::make_vulkan_backend(VulkanOptions const&) {
-    throw std::runtime_error("built without Vulkan; the Debian packages libvulkan-dev and glslang-tools bring it");
+namespace shadowmath::backend {
+
+constexpr char const* sentence = "built without Vulkan; the Debian packages libvulkan-dev and glslang-tools bring it";
+
+std::unique_ptr<Backend> make_vulkan_backend(VulkanOptions const&) {
+    throw std::runtime_error(sentence);
 }
+std::unique_ptr<ComputeRunner> make_vulkan_compute(VulkanOptions const&) {
+    throw std::runtime_error(sentence);
+}
+
+}  // namespace shadowmath::backend

@@ -47,10 +47,18 @@ std::optional<std::uint32_t> drawing_queue_family(VkPhysicalDevice device) {
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    auto const found =
-        std::ranges::find_if(families, [](auto const& f) { return (f.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0; });
+    constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    auto const found = std::ranges::find_if(families, [](auto const& f) { return (f.queueFlags & needed) == needed; });
     if (found == families.end()) return std::nullopt;
     return static_cast<std::uint32_t>(std::distance(families.begin(), found));
+}
+
+bool has_extension(VkPhysicalDevice device, char const* name) {
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    return std::ranges::any_of(extensions, [&](auto const& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
 // The lower, the better; nothing for a device that cannot draw what the backend draws.
@@ -79,6 +87,7 @@ Device::Device(VulkanOptions const& options) : last_words_(options.last_words) {
     try {
         make_instance(options.validation);
         choose_physical(options.software);
+        find_abilities();
         make_device();
     } catch (...) {
         destroy();
@@ -167,6 +176,26 @@ void Device::choose_physical(bool software) {
     queue_family_ = *drawing_queue_family(physical_);
 }
 
+void Device::find_abilities() {
+    VkPhysicalDeviceMultiviewFeatures multiview{};
+    multiview.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &multiview;
+    vkGetPhysicalDeviceFeatures2(physical_, &features);
+    VkPhysicalDeviceMultiviewProperties views{};
+    views.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &views;
+    vkGetPhysicalDeviceProperties2(physical_, &properties);
+    abilities_.geometry_shader = features.features.geometryShader == VK_TRUE;
+    abilities_.layer_from_vertex_shader = has_extension(physical_, VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);
+    abilities_.doubles = features.features.shaderFloat64 == VK_TRUE;
+    abilities_.statistics = features.features.pipelineStatisticsQuery == VK_TRUE;
+    abilities_.views_at_once = multiview.multiview == VK_TRUE ? views.maxMultiviewViewCount : 0u;
+}
+
 void Device::make_device() {
     float const priority = 1.0f;
     VkDeviceQueueCreateInfo queue{};
@@ -176,8 +205,18 @@ void Device::make_device() {
     queue.pQueuePriorities = &priority;
     VkPhysicalDeviceFeatures features{};
     features.depthClamp = VK_TRUE;
+    features.geometryShader = abilities_.geometry_shader ? VK_TRUE : VK_FALSE;
+    features.shaderFloat64 = abilities_.doubles ? VK_TRUE : VK_FALSE;
+    features.pipelineStatisticsQuery = abilities_.statistics ? VK_TRUE : VK_FALSE;
+    VkPhysicalDeviceMultiviewFeatures multiview{};
+    multiview.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES;
+    multiview.multiview = abilities_.views_at_once > 0u ? VK_TRUE : VK_FALSE;
+    constexpr char const* extension = VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &multiview;
+    info.enabledExtensionCount = abilities_.layer_from_vertex_shader ? 1u : 0u;
+    info.ppEnabledExtensionNames = &extension;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &features;

@@ -88,8 +88,32 @@ ImageView make_view(VkDevice device, Target const& target, VkFormat format, VkIm
     return {device, vkCreateImageView, info, "make an image view"};
 }
 
+ShaderModule make_shader(VkDevice device, std::span<std::uint32_t const> words) {
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = words.size_bytes();
+    info.pCode = words.data();
+    return {device, vkCreateShaderModule, info, "load a shader"};
+}
+
+SetLayout make_set_layout(VkDevice device, std::span<VkDescriptorSetLayoutBinding const> bindings) {
+    VkDescriptorSetLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    return {device, vkCreateDescriptorSetLayout, info, "describe what shaders read"};
+}
+
+PipelineLayout make_layout(VkDevice device, SetLayout const& set) {
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = set.address();
+    return {device, vkCreatePipelineLayout, info, "lay out a pipeline"};
+}
+
 Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, Extent extent,
-                             std::span<VkImageView const> attachments) {
+                             std::span<VkImageView const> attachments, int layers) {
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = render_pass;
@@ -97,7 +121,7 @@ Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, Extent e
     info.pAttachments = attachments.data();
     info.width = static_cast<std::uint32_t>(extent.width);
     info.height = static_cast<std::uint32_t>(extent.height);
-    info.layers = 1;
+    info.layers = static_cast<std::uint32_t>(layers);
     return {device, vkCreateFramebuffer, info, "make a framebuffer"};
 }
 

@@ -55,6 +55,7 @@ using RenderPass = Owned<VkRenderPass, vkDestroyRenderPass>;
 using Framebuffer = Owned<VkFramebuffer, vkDestroyFramebuffer>;
 using CommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
 using Fence = Owned<VkFence, vkDestroyFence>;
+using QueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
 
 struct Buffer {
     Memory memory;
@@ -86,7 +87,11 @@ struct TargetShape {
 [[nodiscard]] ImageView make_view(VkDevice device, Target const& target, VkFormat format, VkImageViewType type,
                                   int first_layer, int layers);
 
+[[nodiscard]] ShaderModule make_shader(VkDevice device, std::span<std::uint32_t const> words);
+[[nodiscard]] SetLayout make_set_layout(VkDevice device, std::span<VkDescriptorSetLayoutBinding const> bindings);
+[[nodiscard]] PipelineLayout make_layout(VkDevice device, SetLayout const& set);
+
 [[nodiscard]] Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, Extent extent,
-                                           std::span<VkImageView const> attachments);
+                                           std::span<VkImageView const> attachments, int layers = 1);
 
 }  // namespace shadowmath::backend::vk

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "backends/vk/vk_backend.hpp"
 
-#include "backends/index_ranges.hpp"
+#include "backends/constants.hpp"
 #include "backends/pass_check.hpp"
 #include "backends/vk/barrier.hpp"
-#include "backends/vk/pipelines.hpp"
+#include "backends/vk/commands.hpp"
+#include "backends/vk/compute.hpp"
+#include "backends/vk/descriptors.hpp"
+#include "backends/vk/statistics.hpp"
+#include "backends/vk/targets.hpp"
 
+#include <algorithm>
 #include <array>
-#include <chrono>
+#include <bit>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -18,47 +24,33 @@ namespace {
 
 using namespace vk;
 
-// Uniform blocks lie at multiples of 256 bytes, the coarsest alignment that the specification lets a driver ask for.
-struct alignas(256) MapBlock {
-    glm::mat4 clip_from_world;
-};
-struct alignas(256) FrameBlock {
-    FrameConstants frame;
-};
-// The binding is as wide as the widest block, wherever it begins.
-constexpr VkDeviceSize constants_size = (max_maps - 1) * sizeof(MapBlock) + sizeof(FrameBlock);
-static_assert(constants_size >= 2 * sizeof(FrameBlock));
-
-struct Maps {
-    Target target;
-    ImageView all;  // what the receiver reads
-    std::array<ImageView, max_maps> layer;
-    std::array<Framebuffer, max_maps> framebuffer;
-    int size = 0;
-    int layers = 0;
-};
-
-struct FrameTargets {
-    Target colour, position, normal, depth;
-    ImageView colour_view, position_view, normal_view, depth_view;
-    Framebuffer framebuffer;
-    Extent extent;
-};
-
 class VulkanBackend final : public Backend {
 public:
     explicit VulkanBackend(VulkanOptions const& options)
-        : mistake_(options.mistake), device_(options), pipelines_(device_.get()),
-          constants_(make_host_buffer(device_, constants_size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
-        make_commands();
-        make_descriptors();
+        : mistake_(options.mistake), device_(options),
+          views_at_once_(std::min(device_.abilities().views_at_once, std::uint32_t{max_maps})), pipelines_(device_),
+          commands_(device_), compute_(device_, commands_), statistics_(device_),
+          constants_(make_host_buffer(device_, sizeof(Constants),
+                                      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
+          numbers_(make_host_buffer(device_, sizeof(instance_numbers), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+          descriptors_(device_.get(), pipelines_.set_layout, constants_, sizeof(FrameBlock)) {
+        std::memcpy(numbers_.mapped, instance_numbers.data(), sizeof(instance_numbers));
         prepare_maps(1, 1);  // the receiver's binding always has an image
-        if (mistake_ == VulkanMistake::leak) Pipelines(device_.get()).sampler.forget();
+        if (views_at_once_ > 1u && !second_view_works()) views_at_once_ = 1u;
+        if (mistake_ == VulkanMistake::leak) Pipelines(device_).sampler.forget();
     }
 
     ~VulkanBackend() override { vkDeviceWaitIdle(device_.get()); }  // a call that threw may have left work behind
 
     BackendInfo info() const override { return {"vulkan", device_.description(), "SPIR-V"}; }
+
+    std::vector<DrawWay> ways() const override {
+        std::vector<DrawWay> ways{DrawWay::pass_per_map};
+        if (device_.abilities().geometry_shader) ways.push_back(DrawWay::geometry_clones);
+        if (device_.abilities().layer_from_vertex_shader) ways.push_back(DrawWay::instances);
+        if (views_at_once_ > 0u) ways.push_back(DrawWay::multiview);
+        return ways;
+    }
 
     void upload(Scene const& scene) override {
         demand_none(fault_of(scene));
@@ -67,57 +59,93 @@ public:
         objects_ = scene.objects;
     }
 
-    double draw_depth(DepthPass const& pass) override {
+    DrawWork draw_depth(DepthPass const& pass) override {
         demand_none(fault_of(pass, objects_.size()));
+        demand_none(fault_of(pass.way, ways()));
+        demand_none(fault_of_fitted(pass.fitted, fitted_maps_.has_value()));
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
-        std::array<MapBlock, max_maps> blocks{};
-        std::array<IndexRanges, max_maps> ranges;
-        for (std::size_t i = 0; i < pass.layers.size(); ++i) {
-            blocks[i].clip_from_world = pass.layers[i].clip_from_world;
-            for (std::uint32_t const object : pass.layers[i].objects) append(ranges[i], objects_[object]);
-        }
+        bool const multiview = pass.way == DrawWay::multiview;
+        std::uint32_t const at_once = multiview ? views_at_once_ : std::uint32_t{max_maps};
+        std::vector<DrawGroup> const groups = plan_draws(pass, objects_, at_once);
+        Constants constants;
+        constants.set(pass.layers, at_once);
         Use const drawn =
             mistake_ == VulkanMistake::depth_pass_without_barrier ? unsynchronised_from(depth_drawn) : depth_drawn;
-        VkClearValue far_end{};
-        far_end.depthStencil = {1.0f, 0};
-        return timed([&](VkCommandBuffer commands) {
-            std::memcpy(constants_.mapped, blocks.data(), sizeof(blocks));
+        return timed(work_of(pass.way, groups), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            if (pass.fitted) take_fitted(commands, Constants::copies_of_maps(pass.layers.size(), at_once));
             hand_over(commands, maps_.target, fresh, depth_drawn);
-            for (std::size_t i = 0; i < pass.layers.size(); ++i) {
-                begin(commands, pipelines_.depth_pass, maps_.framebuffer[i], {maps_.size, maps_.size}, {&far_end, 1},
-                      pass.depth_clamp ? pipelines_.depth_clamped : pipelines_.depth_clipped);
-                draw(commands, i * sizeof(MapBlock), ranges[i]);
-                vkCmdEndRenderPass(commands);
-            }
+            if (multiview) clear_maps(commands);
+            for (DrawGroup const& group : groups) draw_group(commands, pass, group);
             hand_over(commands, maps_.target, drawn, depth_sampled);
         });
     }
 
-    // Objects that receive nothing are drawn by the same shader with no map to read.
-    double draw_scene(ScenePass const& pass) override {
+    DrawWork draw_scene(ScenePass const& pass) override {
         demand_none(fault_of(pass, maps_.layers));
+        demand_none(fault_of_fitted(pass.fitted, fitted_maps_.has_value()));
         prepare_frame(pass.extent);
-        std::array<FrameBlock, 2> blocks{FrameBlock{pass.frame}, FrameBlock{pass.frame}};
-        blocks[1].frame.map_count = 0;
-        std::array<IndexRanges, 2> ranges;
-        for (Object const& object : objects_) append(ranges[object.receives ? 0 : 1], object);
-
-        glm::vec4 const& sky = pass.frame.sky;
-        std::array<VkClearValue, 4> clear{};
-        clear[0].color = {{sky.r, sky.g, sky.b, sky.a}};
-        clear[1].color = {{0.0f, 0.0f, 0.0f, -2.0f}};  // no point
-        clear[2].color = {{0.0f, 0.0f, 0.0f, 1.0f}};   // no normal, lit
-        clear[3].depthStencil = {1.0f, 0};
-        return timed([&](VkCommandBuffer commands) {
-            std::memcpy(constants_.mapped, blocks.data(), sizeof(blocks));
-            for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
-                hand_over(commands, *target, fresh, colour_drawn);
-            hand_over(commands, frame_.depth, fresh, depth_drawn);
-            begin(commands, pipelines_.receive_pass, frame_.framebuffer, frame_.extent, clear, pipelines_.receive);
-            for (std::size_t i = 0; i < ranges.size(); ++i) draw(commands, i * sizeof(FrameBlock), ranges[i]);
+        std::vector<ViewDraw> const views = plan_view(pass, objects_);
+        Constants constants;
+        constants.set(views);
+        return timed(work_of(views), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            if (pass.fitted) take_fitted(commands, Constants::copies_of_frames(views.size()));
+            begin_view(commands, pass.frame.sky);
+            for (std::size_t i = 0; i < views.size(); ++i) draw_view(commands, views[i], i);
             vkCmdEndRenderPass(commands);
-            for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
-                hand_over(commands, *target, colour_drawn, copied_from);
+            finish_view(commands);
+        });
+    }
+
+    DrawWork draw_split_by_split(DepthPass const& pass, ScenePass const& view) override {
+        demand_none(fault_of(pass, view, objects_.size()));
+        DepthPass maps = pass;
+        maps.way = DrawWay::pass_per_map;
+        prepare_maps(maps.map_size, 1);
+        prepare_frame(view.extent);
+        SplitPlan const plan = plan_split_by_split(maps, view, objects_);
+        Constants constants;
+        constants.set(maps.layers);
+        constants.set(plan.views);
+        return timed(work_of(plan), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            for (std::size_t i = 0; i < plan.maps.size(); ++i) {
+                hand_over(commands, maps_.target, i == 0 ? fresh : depth_sampled, depth_drawn);
+                draw_group(commands, maps, plan.maps[i]);
+                hand_over(commands, maps_.target, depth_drawn, depth_sampled);
+                if (i == 0)
+                    begin_view(commands, view.frame.sky);
+                else
+                    resume_view(commands);
+                std::size_t const end = i + 1 == plan.maps.size() ? plan.views.size() : i + 1;
+                for (std::size_t k = i; k < end; ++k) draw_view(commands, plan.views[k], k);
+                vkCmdEndRenderPass(commands);
+            }
+            finish_view(commands);
+        });
+    }
+
+    DrawWork fit_maps(FitPass const& pass) override {
+        demand_none(fault_of(pass));
+        prepare_fit(pass);
+        ViewDraw eye;
+        for (Object const& object : objects_) append(eye.draws, object);
+        DepthLayer const layer{pass.clip_from_world, {}};
+        Constants constants;
+        constants.set(std::span(&layer, 1));
+        Compute::Recorded kept;
+        return timed(work_of(std::span(&eye, 1)), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            hand_over(commands, eye_.target, fresh, depth_drawn);
+            VkClearValue const nothing{};
+            begin(commands, pipelines_.depth_pass, eye_.framebuffer, eye_.extent, {&nothing, 1}, pipelines_.eye_depth);
+            draw(commands, Constants::offset_of_map(0), eye.draws);
+            vkCmdEndRenderPass(commands);
+            hand_over(commands, eye_.target, depth_drawn, computed_with);
+            for (ComputeStep const& step : pass.steps)
+                compute_.record(commands, {step.shader, step.groups, {*fit_state_, *fitted_maps_}, {}, pass.constants},
+                                kept, {eye_.array.address(), 1});
         });
     }
 
@@ -129,7 +157,7 @@ public:
         Use const reading =
             mistake_ == VulkanMistake::copy_without_barrier ? unsynchronised_to(copied_from) : copied_from;
         Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             hand_over(commands, maps_.target, depth_sampled, reading);
             copy(commands, maps_.target, layer, image.extent, staging, 0);
             hand_over(commands, maps_.target, copied_from, depth_sampled);
@@ -146,7 +174,7 @@ public:
         VkDeviceSize const geometry = byte_count(frame.position);
         Buffer const staging =
             make_host_buffer(device_, 2 * geometry + byte_count(frame.colour), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             copy(commands, frame_.position, 0, extent, staging, 0);
             copy(commands, frame_.normal, 0, extent, staging, geometry);
             copy(commands, frame_.colour, 0, extent, staging, 2 * geometry);
@@ -159,6 +187,27 @@ public:
         return frame;
     }
 
+    Image<float> read_eye_depth() override {
+        Image<float> image(eye_.extent);
+        if (image.pixels.empty()) return image;
+        Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        commands_.submit([&](VkCommandBuffer commands) {
+            hand_over(commands, eye_.target, computed_with, copied_from);
+            copy(commands, eye_.target, 0, image.extent, staging, 0);
+            hand_over(commands, eye_.target, copied_from, computed_with);
+            finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+        });
+        std::memcpy(image.pixels.data(), staging.mapped, byte_count(image));
+        return image;
+    }
+
+    std::vector<MapConstants> read_fit() override {
+        demand_none(fault_of_fitted(true, fitted_maps_.has_value()));
+        std::vector<MapConstants> maps(max_maps);
+        compute_.read(*fitted_maps_, std::as_writable_bytes(std::span(maps)));
+        return maps;
+    }
+
     std::vector<std::string> take_messages() override { return std::exchange(device_.messages, {}); }
 
 private:
@@ -167,53 +216,22 @@ private:
         return image.pixels.size() * sizeof(Pixel);
     }
 
-    void make_commands() {
-        VkCommandPoolCreateInfo pool{};
-        pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-        pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-        pool.queueFamilyIndex = device_.queue_family();
-        pool_ = {device_.get(), vkCreateCommandPool, pool, "make a command pool"};
-        VkCommandBufferAllocateInfo buffer{};
-        buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-        buffer.commandPool = pool_;
-        buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-        buffer.commandBufferCount = 1;
-        demand(vkAllocateCommandBuffers(device_.get(), &buffer, &commands_), "make a command buffer");
-        VkFenceCreateInfo fence{};
-        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-        finished_ = {device_.get(), vkCreateFence, fence, "make a fence"};
-    }
-
-    void make_descriptors() {
-        std::array<VkDescriptorPoolSize, 2> const sizes{
-            {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}}};
-        VkDescriptorPoolCreateInfo pool{};
-        pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-        pool.maxSets = 1;
-        pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-        pool.pPoolSizes = sizes.data();
-        descriptors_ = {device_.get(), vkCreateDescriptorPool, pool, "make a descriptor pool"};
-        VkDescriptorSetAllocateInfo set{};
-        set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-        set.descriptorPool = descriptors_;
-        set.descriptorSetCount = 1;
-        set.pSetLayouts = pipelines_.set_layout.address();
-        demand(vkAllocateDescriptorSets(device_.get(), &set, &descriptor_set_), "make a descriptor set");
-
-        VkDescriptorBufferInfo const block{constants_.handle, 0, sizeof(FrameBlock)};
-        VkWriteDescriptorSet write = write_binding(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC);
-        write.pBufferInfo = &block;
-        vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
-    }
-
-    VkWriteDescriptorSet write_binding(std::uint32_t binding, VkDescriptorType type) const {
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = descriptor_set_;
-        write.dstBinding = binding;
-        write.descriptorCount = 1;
-        write.descriptorType = type;
-        return write;
+    // Mesa 22.3's software driver transforms every view of a draw, but rasterises them all into the first one's map. So
+    // two are drawn and looked at; where the second is missing, one view at once is what multiview comes to.
+    bool second_view_works() {
+        Scene scene;
+        for (glm::vec2 const corner : {glm::vec2(-1, -1), glm::vec2(3, -1), glm::vec2(-1, 3)})
+            scene.vertices.push_back({glm::vec3(corner, 0.5f), {0, 0, 1}, {255, 255, 255, 255}});
+        scene.indices = {0, 1, 2};
+        scene.objects = {{0, 3}};
+        upload(scene);
+        std::array<std::uint32_t, 1> const triangle{0};
+        std::array<DepthLayer, 2> const both{{{glm::mat4(1.0f), triangle}, {glm::mat4(1.0f), triangle}}};
+        draw_depth({1, both, true, DrawWay::multiview});
+        bool const works = read_depth(1).at(0, 0) < 1.0f;
+        upload({});
+        prepare_maps(1, 1);
+        return works;
     }
 
     void fill_buffers(Scene const& scene) {
@@ -226,7 +244,7 @@ private:
                                        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         indices_ = make_device_buffer(device_, index_bytes,
                                       VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        submit([&](VkCommandBuffer commands) {
+        commands_.submit([&](VkCommandBuffer commands) {
             VkBufferCopy const of_vertices{0, 0, vertex_bytes}, of_indices{vertex_bytes, 0, index_bytes};
             vkCmdCopyBuffer(commands, staging.handle, vertices_.handle, 1, &of_vertices);
             vkCmdCopyBuffer(commands, staging.handle, indices_.handle, 1, &of_indices);
@@ -237,56 +255,47 @@ private:
 
     void prepare_maps(int size, int layers) {
         if (size == maps_.size && layers == maps_.layers) return;
-        Maps maps;
         VkImageUsageFlags usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
         if (mistake_ != VulkanMistake::usage_forgotten) usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        maps.target = make_target(device_, {depth_format, {size, size}, layers, usage},
-                                  std::to_string(layers) + " shadow maps of " + std::to_string(size));
-        maps.all = make_view(device_.get(), maps.target, depth_format, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, layers);
-        for (int i = 0; i < layers; ++i) {
-            auto const at = static_cast<std::size_t>(i);
-            maps.layer[at] = make_view(device_.get(), maps.target, depth_format, VK_IMAGE_VIEW_TYPE_2D, i, 1);
-            maps.framebuffer[at] =
-                make_framebuffer(device_.get(), pipelines_.depth_pass, {size, size}, {maps.layer[at].address(), 1});
-        }
-        maps.size = size;
-        maps.layers = layers;
-        submit([&](VkCommandBuffer commands) { hand_over(commands, maps.target, fresh, depth_sampled); });
+        Maps maps = make_maps(device_, pipelines_, size, layers, static_cast<int>(views_at_once_), usage);
+        commands_.submit([&](VkCommandBuffer commands) { hand_over(commands, maps.target, fresh, depth_sampled); });
 
-        VkDescriptorImageInfo const image{pipelines_.sampler, maps.all, depth_sampled.layout};
-        VkWriteDescriptorSet write = write_binding(1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-        write.pImageInfo = &image;
-        vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
+        descriptors_.read_maps(pipelines_.sampler, maps.all, depth_sampled.layout);
         maps_ = std::move(maps);
     }
 
     void prepare_frame(Extent extent) {
         if (extent.width == frame_.extent.width && extent.height == frame_.extent.height) return;
-        FrameTargets frame;
-        auto const make = [&](Target& target, ImageView& view, VkFormat format, VkImageUsageFlags usage) {
-            target = make_target(device_, {format, extent, 1, usage},
-                                 "a frame of " + std::to_string(extent.width) + " x " + std::to_string(extent.height));
-            view = make_view(device_.get(), target, format, VK_IMAGE_VIEW_TYPE_2D, 0, 1);
-        };
-        constexpr auto kept = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        make(frame.colour, frame.colour_view, colour_format, kept);
-        make(frame.position, frame.position_view, geometry_format, kept);
-        make(frame.normal, frame.normal_view, geometry_format, kept);
-        make(frame.depth, frame.depth_view, depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-        std::array<VkImageView, 4> const views{frame.colour_view, frame.position_view, frame.normal_view,
-                                               frame.depth_view};
-        frame.framebuffer = make_framebuffer(device_.get(), pipelines_.receive_pass, extent, views);
-        frame.extent = extent;
-        frame_ = std::move(frame);
+        frame_ = make_frame(device_, pipelines_, extent);
+    }
+
+    void prepare_fit(FitPass const& pass) {
+        if (pass.extent.width != eye_.extent.width || pass.extent.height != eye_.extent.height)
+            eye_ = make_eye_depth(device_, pipelines_, pass.extent);
+        if (!fit_state_ || state_bytes_ != pass.state_bytes) fit_state_ = compute_.make_storage(pass.state_bytes);
+        state_bytes_ = pass.state_bytes;
+        if (!fitted_maps_ && !pass.steps.empty()) fitted_maps_ = compute_.make_storage(max_maps * sizeof(MapConstants));
+    }
+
+    void take_fitted(VkCommandBuffer commands, std::span<BlockCopy const> copies) const {
+        std::vector<VkBufferCopy> regions;
+        for (BlockCopy const& copy : copies) regions.push_back({copy.from, copy.to, copy.size});
+        vkCmdCopyBuffer(commands, compute_.buffer(*fitted_maps_), constants_.handle,
+                        static_cast<std::uint32_t>(regions.size()), regions.data());
+        finish_copies(commands, VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT, VK_ACCESS_UNIFORM_READ_BIT);
     }
 
     // A positive viewport: NDC y = -1 is row 0, as in the other backends.
+    static void set_viewport(VkCommandBuffer commands, Extent extent, float z_begin, float z_end) {
+        VkViewport const viewport{0.0f,    0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                                  z_begin, z_end};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+    }
+
     void begin(VkCommandBuffer commands, VkRenderPass render_pass, VkFramebuffer framebuffer, Extent extent,
                std::span<VkClearValue const> clear, VkPipeline pipeline) const {
         VkRect2D const area{{0, 0},
                             {static_cast<std::uint32_t>(extent.width), static_cast<std::uint32_t>(extent.height)}};
-        VkViewport const viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                                  0.0f, 1.0f};
         VkRenderPassBeginInfo info{};
         info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
         info.renderPass = render_pass;
@@ -296,19 +305,106 @@ private:
         info.pClearValues = clear.data();
         vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        vkCmdSetViewport(commands, 0, 1, &viewport);
+        set_viewport(commands, extent, 0.0f, 1.0f);
         vkCmdSetScissor(commands, 0, 1, &area);
     }
 
-    void draw(VkCommandBuffer commands, std::size_t block_offset, IndexRanges const& ranges) const {
-        if (ranges.empty()) return;
+    void draw(VkCommandBuffer commands, std::size_t block_offset, std::span<Draw const> draws) const {
+        if (draws.empty()) return;
         auto const offset = static_cast<std::uint32_t>(block_offset);
-        VkDeviceSize const from_start = 0;
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout, 0, 1, &descriptor_set_, 1,
-                                &offset);
-        vkCmdBindVertexBuffers(commands, 0, 1, vertices_.handle.address(), &from_start);
+        std::array<VkBuffer, 2> const buffers{vertices_.handle, numbers_.handle};
+        constexpr std::array<VkDeviceSize, 2> from_start{};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout, 0, 1,
+                                descriptors_.address(), 1, &offset);
+        vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), from_start.data());
         vkCmdBindIndexBuffer(commands, indices_.handle, 0, VK_INDEX_TYPE_UINT32);
-        for (IndexRange const& range : ranges) vkCmdDrawIndexed(commands, range.count, 1, range.first, 0, 0);
+        for (Draw const& draw : draws)
+            vkCmdDrawIndexed(commands, draw.index_count, draw.instance_count, draw.first_index, draw.vertex_offset,
+                             draw.first_instance);
+    }
+
+    static constexpr VkClearValue far_end() {
+        VkClearValue clear{};
+        clear.depthStencil = {1.0f, 0};
+        return clear;
+    }
+
+    // A render pass clears the maps of its views alone.
+    void clear_maps(VkCommandBuffer commands) const {
+        VkClearValue const clear = far_end();
+        begin(commands, pipelines_.depth_pass, maps_.layered, {maps_.size, maps_.size}, {&clear, 1},
+              pipelines_.per_map.get(true));
+        vkCmdEndRenderPass(commands);
+    }
+
+    struct MapTarget {
+        VkRenderPass render_pass;
+        VkFramebuffer framebuffer;
+        DepthPipelines const& pipelines;
+        std::size_t block_offset;
+    };
+
+    MapTarget target_of(DrawWay way, MapSet maps) {
+        auto const first = static_cast<std::size_t>(std::countr_zero(maps));
+        switch (way) {
+            case DrawWay::geometry_clones:
+                return {pipelines_.depth_pass, maps_.layered, pipelines_.clones, Constants::offset_of_maps(0)};
+            case DrawWay::instances:
+                return {pipelines_.depth_pass, maps_.layered, pipelines_.instances, Constants::offset_of_maps(0)};
+            case DrawWay::multiview: {
+                std::size_t const block = first / views_at_once_;
+                ViewsPass const& views = pipelines_.views(maps >> block * views_at_once_);
+                Framebuffer& framebuffer = maps_.of_views[maps];
+                if (framebuffer == VK_NULL_HANDLE)
+                    framebuffer = make_framebuffer(device_.get(), views.pass, {maps_.size, maps_.size},
+                                                   {maps_.views[block].address(), 1});
+                return {views.pass, framebuffer, views.pipelines, Constants::offset_of_maps(block)};
+            }
+            case DrawWay::pass_per_map: break;
+        }
+        std::size_t const layer =
+            first % static_cast<std::size_t>(maps_.layers);  // a lone layer serves every map in turn
+        return {pipelines_.depth_pass, maps_.framebuffer[layer], pipelines_.per_map, Constants::offset_of_map(first)};
+    }
+
+    // Clears its maps and draws them; with multiview they are clear.
+    void draw_group(VkCommandBuffer commands, DepthPass const& pass, DrawGroup const& group) {
+        VkClearValue const clear = far_end();
+        MapTarget const to = target_of(pass.way, group.maps);
+        if (pass.way == DrawWay::multiview) hand_over(commands, maps_.target, depth_drawn, depth_drawn);
+        begin(commands, to.render_pass, to.framebuffer, {maps_.size, maps_.size}, {&clear, 1},
+              to.pipelines.get(pass.depth_clamp));
+        draw(commands, to.block_offset, group.draws);
+        vkCmdEndRenderPass(commands);
+    }
+
+    void begin_view(VkCommandBuffer commands, glm::vec4 const& sky) const {
+        std::array<VkClearValue, 4> clear{};
+        clear[0].color = {{sky.r, sky.g, sky.b, sky.a}};
+        clear[1].color = {{0.0f, 0.0f, 0.0f, -2.0f}};  // no point
+        clear[2].color = {{0.0f, 0.0f, 0.0f, 1.0f}};   // no normal, lit
+        clear[3] = far_end();
+        hand_over_view(commands, fresh, colour_drawn);
+        hand_over(commands, frame_.depth, fresh, depth_drawn);
+        begin(commands, pipelines_.receive_pass, frame_.framebuffer, frame_.extent, clear, pipelines_.receive);
+    }
+
+    void resume_view(VkCommandBuffer commands) const {
+        hand_over_view(commands, colour_drawn, colour_drawn);
+        hand_over(commands, frame_.depth, depth_drawn, depth_drawn);
+        begin(commands, pipelines_.receive_pass_resumed, frame_.framebuffer, frame_.extent, {}, pipelines_.receive);
+    }
+
+    void draw_view(VkCommandBuffer commands, ViewDraw const& view, std::size_t index) const {
+        set_viewport(commands, frame_.extent, view.z_begin, view.z_end);
+        draw(commands, Constants::offset_of_frame(index), view.draws);
+    }
+
+    void finish_view(VkCommandBuffer commands) const { hand_over_view(commands, colour_drawn, copied_from); }
+
+    void hand_over_view(VkCommandBuffer commands, Use from, Use to) const {
+        for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
+            hand_over(commands, *target, from, to);
     }
 
     static void copy(VkCommandBuffer commands, Target const& from, int layer, Extent extent, Buffer const& to,
@@ -320,45 +416,33 @@ private:
         vkCmdCopyImageToBuffer(commands, from.image, copied_from.layout, to.handle, 1, &region);
     }
 
-    // Records, submits and waits: nothing is ever in flight between calls.
     template <class Record>
-    void submit(Record const& record) const {
-        demand(vkResetCommandPool(device_.get(), pool_, 0), "reset its commands");
-        VkCommandBufferBeginInfo begin{};
-        begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        demand(vkBeginCommandBuffer(commands_, &begin), "begin its commands");
-        record(commands_);
-        demand(vkEndCommandBuffer(commands_), "end its commands");
-        VkSubmitInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        info.commandBufferCount = 1;
-        info.pCommandBuffers = &commands_;
-        demand(vkQueueSubmit(device_.queue(), 1, &info, finished_), "submit its commands");
-        demand(vkWaitForFences(device_.get(), 1, finished_.address(), VK_TRUE, UINT64_MAX), "wait for its commands");
-        demand(vkResetFences(device_.get(), 1, finished_.address()), "reset a fence");
-    }
-
-    template <class Record>
-    double timed(Record const& record) const {
-        auto const begun = std::chrono::steady_clock::now();
-        submit(record);
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+    [[nodiscard]] DrawWork timed(DrawWork work, Record const& record) const {
+        work.milliseconds = commands_.timed([&](VkCommandBuffer commands) {
+            statistics_.begin(commands);
+            record(commands);
+            statistics_.end(commands);
+        });
+        work.driver = statistics_.read(device_.get());
+        return work;
     }
 
     VulkanMistake mistake_;
     Device device_;  // dies last of all that follows
+    std::uint32_t views_at_once_;
     Pipelines pipelines_;
-    Buffer constants_;
-    CommandPool pool_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    Fence finished_;
-    DescriptorPool descriptors_;
-    VkDescriptorSet descriptor_set_ = VK_NULL_HANDLE;
+    Commands commands_;
+    Compute compute_;
+    Statistics statistics_;
+    Buffer constants_, numbers_;
+    Descriptors descriptors_;
     Buffer vertices_, indices_;
     std::vector<Object> objects_;
     Maps maps_;
     FrameTargets frame_;
+    EyeDepth eye_;
+    std::optional<Storage> fit_state_, fitted_maps_;
+    std::size_t state_bytes_ = 0;
 };
 
 }  // namespace

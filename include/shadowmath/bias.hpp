@@ -66,13 +66,14 @@ template <class T>
 template <class T>
 [[nodiscard]] inline DepthSlope<T> lean(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, T limit) noexcept {
     if (!all_finite(map.clip_from_world)) return {};
-    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    Mat4<T> const texture = texture_from_world(map);
+    Projected<T> const at = projected(texture, point, map.w_min);
     if (!at.in_front) return {};
-    // Along a light ray neither x nor y of NDC changes: it is at a right angle to both of these.
-    Vec3<T> const w(row(map.clip_from_world, 3));
-    Vec3<T> const x = Vec3<T>(row(map.clip_from_world, 0)) - at.at.x * w;
-    Vec3<T> const y = Vec3<T>(row(map.clip_from_world, 1)) - at.at.y * w;
-    return slope(map, map_size, point, glm::cross(safe_normalize(x).direction, safe_normalize(y).direction), limit);
+    // Along a light ray neither u nor v changes: it is at a right angle to both of these.
+    Vec3<T> const w(row(texture, 3));
+    Vec3<T> const u = Vec3<T>(row(texture, 0)) - at.at.x * w;
+    Vec3<T> const v = Vec3<T>(row(texture, 1)) - at.at.y * w;
+    return slope(map, map_size, point, glm::cross(safe_normalize(u).direction, safe_normalize(v).direction), limit);
 }
 
 // The k of the law: matrix * light = (0, 0, k, 0). For a directional light it is the clip depth that a metre along
@@ -195,7 +196,9 @@ struct InverseW {
 template <class T>
 [[nodiscard]] inline InverseW<T> ends_of_axis(Mat4<T> const& canonical, Light<T> const& light, T gain) noexcept {
     Vec4<T> const axis(light.direction, T(0));
-    T const at_infinity = glm::dot(row(canonical, 2), axis) / glm::dot(row(canonical, 3), axis);
+    T const w_along = glm::dot(row(canonical, 3), axis);
+    if (!(w_along > T(0))) return {};
+    T const at_infinity = glm::dot(row(canonical, 2), axis) / w_along;
     InverseW<T> const ends{at_infinity / gain, (at_infinity - T(1)) / gain};
     if (!all_finite(&ends.nearest, 1) || !all_finite(&ends.farthest, 1) || !(ends.nearest > T(0))) return {};
     return {ends.nearest, ends.farthest > T(0) ? ends.farthest : T(0)};

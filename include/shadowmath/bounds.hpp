@@ -25,6 +25,29 @@ struct Sphere {
     T radius = T(0);
 };
 
+// Boxes as structure of arrays: box i is [lo_x[i], hi_x[i]] x ...
+template <class T>
+struct BoxArrays {
+    T const* lo_x = nullptr;
+    T const* lo_y = nullptr;
+    T const* lo_z = nullptr;
+    T const* hi_x = nullptr;
+    T const* hi_y = nullptr;
+    T const* hi_z = nullptr;
+};
+
+template <class T>
+[[nodiscard]] inline Aabb<T> box_at(BoxArrays<T> const& boxes, int i) noexcept {
+    return {Vec3<T>(boxes.lo_x[i], boxes.lo_y[i], boxes.lo_z[i]), Vec3<T>(boxes.hi_x[i], boxes.hi_y[i], boxes.hi_z[i])};
+}
+
+// The boxes from `begin` on.
+template <class T>
+[[nodiscard]] inline BoxArrays<T> boxes_from(BoxArrays<T> const& boxes, int begin) noexcept {
+    return {boxes.lo_x + begin, boxes.lo_y + begin, boxes.lo_z + begin,
+            boxes.hi_x + begin, boxes.hi_y + begin, boxes.hi_z + begin};
+}
+
 // Empty as soon as one axis has lo > hi, or a NaN.
 template <class T>
 [[nodiscard]] inline bool is_empty(Aabb<T> const& box) noexcept {

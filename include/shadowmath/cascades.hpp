@@ -2,13 +2,18 @@
 //
 // The one call: a view, a light and two boxes in; one matrix a cascade out.
 //
-//   view ── splits ── slices ─┬─ fit ── depth range ── matrix      stable   bounding sphere on a texel grid: nothing
-//   light ── basis ───────────┘                                             shimmers when the camera moves or turns
-//                                                                   tight    light-space box: up to twice the texels,
-//                                                                            and shadow edges crawl under motion
+//   view ── splits ── slices ─┬─ fit ── depth range ── matrix
+//   light ── basis ───────────┘
 //
-// Use `stable` unless the camera never moves or a temporal filter hides the crawl. Every step is a header of its own,
-// so a renderer that needs another order calls them itself.
+//   stable      bounding sphere on a texel grid: nothing shimmers when the camera moves or turns
+//   tight       light-space box: up to twice the texels, and shadow edges crawl under motion
+//   rectangle   the smallest rectangle at any angle: a quarter fewer metres than tight
+//   focus       the smallest around what can be seen in shadow: receivers in view that casters are above
+//   warped      a perspective warp of each slice (warp.hpp): texels small near the eye within every map
+//
+// Use `stable` unless the camera never moves or a temporal filter hides the crawl; or for the nearest maps alone, where
+// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step
+// is a header of its own, so a renderer that needs another order calls them itself.
 //
 // Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
 // inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable
@@ -17,17 +22,22 @@
 
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/config.hpp>
+#include <shadowmath/culling.hpp>
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
+#include <shadowmath/fit_focus.hpp>
+#include <shadowmath/fit_rectangle.hpp>
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/light.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/polytope.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/slice.hpp>
 #include <shadowmath/splits.hpp>
 #include <shadowmath/texel_grid.hpp>
 #include <shadowmath/view_volume.hpp>
+#include <shadowmath/warp.hpp>
 
 #include <array>
 #include <cstdint>
@@ -35,13 +45,15 @@
 namespace shadowmath {
 inline namespace v0 {
 
-enum class CascadeFit : std::uint8_t { stable, tight };
+enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus, warped };
 
 template <class T>
 struct CascadeOptions {
     int count = 4;        // maps, 1 to max_splits
     int map_size = 2048;  // texels along one side of each
     CascadeFit fit = CascadeFit::stable;
+    int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
+    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none
     T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
     T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
     T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
@@ -55,8 +67,8 @@ template <class T>
 struct Cascade {
     ShadowMap<T> map;
     SliceRange<T> range;    // metres of eye depth that it serves
-    T texel_metres = T(0);  // across the light; 0 of a spot, whose texels grow with distance
-    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of a spot
+    T texel_metres = T(0);  // across the light; 0 of a spot or a warped map, whose texels grow with distance
+    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of those
 };
 
 template <class T>
@@ -104,33 +116,62 @@ template <class T>
 }
 
 template <class T>
-inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
-                            Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
-                            CascadeOptions<T> const& options) noexcept {
+inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
+                       DepthRange<T> const& slice_depth, T previous_texel, Aabb<T> const& casters,
+                       Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    Sphere<T> const sphere = bounding_sphere(part);
+    TexelGrid<T> grid = texel_grid(basis, sphere, options.map_size, margin_texels);
+    T const held = held_size(grid.texel_metres, previous_texel);
+    if (grid.visible && held != grid.texel_metres) grid = grid_window(basis, sphere.center, held, options.map_size);
+    cascade.map.faults |= grid.faults;
+    if (!grid.visible) return;
+    LightBox<T> const sides = on_grid(grid, slice_depth.lo, slice_depth.hi);
+    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
+    if (!depth.visible) return;
+    cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
+    cascade.map.visible = true;
+    cascade.texel_metres = grid.texel_metres;
+    cascade.depth_metres = depth.hi - depth.lo;
+}
+
+// `previous`: the same map in the last frame, or one that is not visible.
+template <class T>
+inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVolume<T> const& part,
+                            Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
+                            Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    if (cascade_fit == CascadeFit::warped) {
+        WarpOptions<T> const warp{options.map_size, margin_texels, options.warp_strength};
+        cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
+        return;
+    }
+    LightBasis<T> const basis = light_basis(light.direction);
     std::array<Vec3<T>, 8> const body = corners(part);
     LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
-    DepthRange<T> const slice_depth{sides.depth_lo, sides.depth_hi, true};
-    TexelGrid<T> grid;
-    if (options.fit == CascadeFit::stable) {
-        grid = texel_grid(basis, bounding_sphere(part), options.map_size, margin_texels);
-        cascade.map.faults |= grid.faults;
-        if (!grid.visible) return;
-        sides = on_grid(grid, sides.depth_lo, sides.depth_hi);
+    DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
+    if (cascade_fit == CascadeFit::stable) {
+        fit_stable(cascade, part, basis, depth, previous.texel_metres, casters, receivers, margin_texels, options);
+        return;
     }
-    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
+    Vec3<T> const previous_x = previous.map.visible ? Vec3<T>(row(previous.map.clip_from_world, 0)) : Vec3<T>(T(0));
+    if (cascade_fit == CascadeFit::focus) {
+        Focus<T> const focus = focus_of(part, light, casters, receivers);
+        if (!focus.visible) return;
+        sides = fit_rectangle(basis, focus.receivers, options.map_size, margin_texels, previous_x);
+        depth = focus.depth;
+        if (options.pancake) depth.lo = focus.first_receiver;
+    } else {
+        if (cascade_fit == CascadeFit::rectangle)
+            sides = fit_rectangle(basis, convex_body(body), options.map_size, margin_texels, previous_x);
+        depth = depth_range(sides, depth, casters, receivers, options.pancake);
+    }
     if (!depth.visible) return;
     sides.depth_lo = depth.lo;
     sides.depth_hi = depth.hi;
-    if (options.fit == CascadeFit::stable) {
-        cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
-        cascade.texel_metres = grid.texel_metres;
-    } else {
-        cascade.map.clip_from_world = clip_from_world(sides, options.clip);
-        Vec2<T> const texel = texel_metres(sides, options.map_size);
-        cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
-    }
-    cascade.depth_metres = depth.hi - depth.lo;
+    cascade.map.clip_from_world = clip_from_world(sides, options.clip);
     cascade.map.visible = true;
+    Vec2<T> const texel = texel_metres(sides, options.map_size);
+    cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
+    cascade.depth_metres = depth.hi - depth.lo;
 }
 
 }  // namespace detail
@@ -138,10 +179,14 @@ inline void fit_directional(Cascade<T>& cascade, ViewVolume<T> const& part, Ligh
 // Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its
 // slice, filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that
 // map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
-// does. `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault.
+// does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
+// `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
+// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that
+// is not a quarter too much: so a slow zoom does not set all shadows crawling.
 template <class T>
 [[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
-                                              Aabb<T> const& receivers, CascadeOptions<T> const& options) noexcept {
+                                              Aabb<T> const& receivers, CascadeOptions<T> const& options,
+                                              Cascades<T> const* previous = nullptr) noexcept {
     Cascades<T> cascades;
     Faults faults = faults_of(light);
     ViewVolume<T> const seen = detail::shadowed_part(view, options.shadow_distance, faults);
@@ -168,7 +213,6 @@ template <class T>
         blend = all_finite(&options.blend, 1) && blend > T(1) ? T(1) : T(0);
         faults |= Fault::clamped_option;
     }
-    LightBasis<T> const basis = light_basis(light.direction);
     cascades.count = splits.count;
     cascades.faults = faults | splits.faults;
     for (int i = 0; i < splits.count; ++i) {
@@ -178,13 +222,24 @@ template <class T>
         ViewVolume<T> const part = slice(seen, cascade.range);
         if (is_empty(casters) || is_empty(receivers)) continue;
         if (light.kind == LightKind::directional) {
-            detail::fit_directional(cascade, part, basis, casters, receivers, margin_texels, options);
+            Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
+            CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
+            detail::fit_directional(cascade, cascade_fit, part, light, last, casters, receivers, margin_texels,
+                                    options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }
         cascades.faults |= cascade.map.faults;
     }
     return cascades;
+}
+
+// For caster_mask: bit i is cascade i.
+template <class T>
+[[nodiscard]] inline CasterMaps<T> caster_maps(Cascades<T> const& cascades) noexcept {
+    CasterMaps<T> maps;
+    for (Cascade<T> const& cascade : cascades) add_map(maps, cascade.map);
+    return maps;
 }
 
 }  // namespace v0

@@ -30,13 +30,18 @@ struct FilterOptions {
     bool tap_plane = true;  // compare each tap with the receiver plane's depth there, not with the point's
 };
 
-// Share of the kernel that texel `tap` (-radius to radius from the one that holds the point) covers along one axis,
-// when the point lies the `fraction` [0, 1) into its texel. The taps of an axis sum to 1.
+// Texels that the kernel covers of texel `tap` (-radius to radius from the one that holds the point) along one axis,
+// when the point lies the `fraction` [0, 1) into its texel.
+template <class T>
+[[nodiscard]] constexpr T covered_texels(int tap, int radius, T fraction) noexcept {
+    if (radius == 0) return T(1);
+    return tap == -radius ? T(1) - fraction : (tap == radius ? fraction : T(1));
+}
+
+// The same as a share of the kernel: the taps of an axis sum to 1.
 template <class T>
 [[nodiscard]] constexpr T tap_weight(int tap, int radius, T fraction) noexcept {
-    if (radius == 0) return T(1);
-    T const covered = tap == -radius ? T(1) - fraction : (tap == radius ? fraction : T(1));
-    return covered / T(2 * radius);
+    return radius == 0 ? T(1) : covered_texels(tap, radius, fraction) / T(2 * radius);
 }
 
 // A receiver as the map sees it.
@@ -47,7 +52,8 @@ struct Receiver {
     DepthSlope<T> slope;  // on its plane
 };
 
-// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light.
+// Share of light that reaches the receiver, in [0, 1]: the weighted part of taps with nothing nearer to the light; 1
+// and 0 are exact where all taps agree.
 // `stored_depth(x, y)` is asked for texels of the map only; those outside hold nothing. Depths are compared within
 // [0, 1], as they are stored: a receiver beyond the far end is lit by the cleared map. What is not finite is lit.
 template <class T, class StoredDepth>
@@ -71,17 +77,42 @@ template <class T, class StoredDepth>
     };
     int const home_x = static_cast<int>(std::floor(at.x)), home_y = static_cast<int>(std::floor(at.y));
     Vec2<T> const fraction(at.x - T(home_x), at.y - T(home_y));
-    T visibility = T(0);
+    T lit = T(0), dark = T(0);
     for (int j = -radius; j <= radius; ++j) {
         for (int i = -radius; i <= radius; ++i) {
-            T const weight = tap_weight(i, radius, fraction.x) * tap_weight(j, radius, fraction.y);
+            T const weight = covered_texels(i, radius, fraction.x) * covered_texels(j, radius, fraction.y);
             Vec2<T> const to_tap = Vec2<T>(T(i), T(j)) + T(0.5) - fraction;
             T const rise = options.tap_plane ? receiver.slope.x * to_tap.x + receiver.slope.y * to_tap.y : T(0);
-            if (is_lit(home_x + i, home_y + j, receiver.depth + rise)) visibility += weight;
+            (is_lit(home_x + i, home_y + j, receiver.depth + rise) ? lit : dark) += weight;
         }
     }
-    return visibility < T(1) ? visibility : T(1);
+    return dark == T(0) ? T(1) : lit / (lit + dark);
 }
+
+namespace detail {
+
+template <class T>
+struct Seen {
+    Receiver<T> receiver;
+    T w = T(1);           // clip w of the receiver
+    bool in_map = false;  // false: the map cannot answer, the point is lit
+};
+
+template <class T>
+[[nodiscard]] inline Seen<T> seen_by(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, Vec3<T> const& normal,
+                                     MapBias<T> const& bias, bool tap_plane) noexcept {
+    if (!map.visible || map_size < 1 || !all_finite(map.clip_from_world)) return {};
+    Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
+    if (!at.in_front) return {};
+    DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
+    DepthSlope<T> const own = tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
+    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
+    bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
+    T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
+    return {Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, at.w, true};
+}
+
+}  // namespace detail
 
 // What a receiver shader does for one map: project the point and the plane through it, subtract the bias, filter. 1
 // where the map does not hold the point. `normal` is the surface's own, not the interpolated one.
@@ -89,16 +120,9 @@ template <class T, class StoredDepth>
 [[nodiscard]] inline T visibility(ShadowMap<T> const& map, int map_size, Vec3<T> const& point, Vec3<T> const& normal,
                                   MapBias<T> const& bias, FilterOptions options,
                                   StoredDepth const& stored_depth) noexcept {
-    if (!map.visible || map_size < 1 || !all_finite(map.clip_from_world)) return T(1);
-    Projected<T> const at = projected(texture_from_world(map), point, map.w_min);
-    if (!at.in_front) return T(1);
-    DepthSlope<T> const on_plane = slope(map, map_size, point, normal, bias.slope_limit);
-    DepthSlope<T> const own = options.tap_plane ? lean(map, map_size, point, bias.slope_limit) : DepthSlope<T>{};
-    T const toward_light = depth_bias(bias, at.w, {on_plane.x - own.x, on_plane.y - own.y});
-    bool const reversed_depth = map.clip.depth == DepthOrder::one_to_zero;
-    T const depth = reversed_depth ? at.at.z + toward_light : at.at.z - toward_light;
-    return filtered(Receiver<T>{Vec2<T>(at.at) * T(map_size), depth, on_plane}, map_size, map.clip, options,
-                    stored_depth);
+    detail::Seen<T> const seen = detail::seen_by(map, map_size, point, normal, bias, options.tap_plane);
+    if (!seen.in_map) return T(1);
+    return filtered(seen.receiver, map_size, map.clip, options, stored_depth);
 }
 
 }  // namespace v0

@@ -86,8 +86,13 @@ template <class T>
     T largest = magnitude.x > magnitude.y ? magnitude.x : magnitude.y;
     largest = largest > magnitude.z ? largest : magnitude.z;
     if (!(largest > T(0))) return {};
-    // Two steps: the reciprocal of a denormal number overflows, the quotient does not.
-    Vec3<T> const scaled(v.x / largest, v.y / largest, v.z / largest);
+    // -ffast-math divides by way of the reciprocal, which overflows or vanishes for what is very short or very long. A
+    // power of two first, which is exact, leaves it room.
+    constexpr T up = T(0x1p100), down = T(0x1p-100);
+    T const power = largest < down ? up : (largest > up ? down : T(1));
+    Vec3<T> const moderate = v * power;
+    T const divisor = largest * power;
+    Vec3<T> const scaled(moderate.x / divisor, moderate.y / divisor, moderate.z / divisor);
     T const length = std::sqrt(glm::dot(scaled, scaled));
     return {scaled / length, length * largest, true};
 }

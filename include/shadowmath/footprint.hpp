@@ -60,7 +60,7 @@ template <class T>
     Vec2<T> const t = Vec2<T>(gain_along(matrix, point, plane.t)) * half_size;
     T scale = T(0);
     for (T const entry : {s.x, s.y, t.x, t.y}) scale = std::abs(entry) > scale ? std::abs(entry) : scale;
-    if (!(scale > T(0)) || !all_finite(&scale, 1)) return {};
+    if (!all_finite(s) || !all_finite(t) || !(scale > T(0))) return {};
     return {s / scale, t / scale, scale};
 }
 

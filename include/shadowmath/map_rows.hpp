@@ -117,7 +117,7 @@ template <class T>
     Aabb<T> const near_enough{Vec3<T>(-reach_metres), Vec3<T>(reach_metres)};
     Aabb<T> const box = intersect(Aabb<T>{casters.lo - eye, casters.hi - eye}, near_enough);
     if (is_empty(box)) return {};
-    ConvexBody<T> shaft = convex_body(corners(box));
+    ConvexBody<T> shaft = convex_body(box);
     Vec4<T> const one(T(0), T(0), T(0), T(1));
     if (!rows.parallel) shaft = clipped(shaft, rows.along - one * rows.along_floor);
     shaft = clipped(shaft, one * last - rows.along);

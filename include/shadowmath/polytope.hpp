@@ -4,7 +4,8 @@
 //
 // The body is its edges, each with the two faces that meet there. A plane shortens edges; every face that it cuts is
 // left with two ends, and the line between them is a new edge, shared with the new face. So nothing ever needs to be
-// in order. Use it to bound what a map must hold; for a box alone bounds.hpp is enough.
+// in order. Each face also keeps its own plane, which sweep.hpp follows the light with. Use it to bound what a map must
+// hold; for a box alone bounds.hpp is enough.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -18,8 +19,8 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// Six faces to begin with and up to eighteen cuts: a polyhedron of f faces has at most 3 f - 6 edges.
-inline constexpr int max_body_faces = 24;
+// Six faces to begin with and up to twenty-six cuts: a polyhedron of f faces has at most 3 f - 6 edges.
+inline constexpr int max_body_faces = 32;
 inline constexpr int max_body_edges = 3 * max_body_faces - 6;
 
 template <class T>
@@ -30,11 +31,13 @@ struct ConvexBody {
         std::array<std::uint8_t, 2> face;
     };
     std::array<Edge, max_body_edges> edges;
-    int edge_count = 0;  // 0: nothing left
+    std::array<Vec4<T>, max_body_faces> half_space;  // of each face, >= 0 inside, of any length; 0 where none is known
+    int edge_count = 0;                              // 0: nothing left
     int face_count = 0;
 };
 
-// From eight corners whose indices differ in one bit along an edge: a box, a view volume.
+// From eight corners whose indices differ in one bit along an edge: a box, a view volume. A face without area has no
+// plane of its own.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> convex_body(std::array<Vec3<T>, 8> const& corners) noexcept {
     ConvexBody<T> body;
@@ -49,6 +52,29 @@ template <class T>
                 corners[i | 1u << axis],
                 {static_cast<std::uint8_t>(2 * u + (i >> u & 1u)), static_cast<std::uint8_t>(2 * v + (i >> v & 1u))}};
         }
+    for (unsigned face = 0; face < 6; ++face) {
+        unsigned const axis = face / 2, at = (face & 1u) << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+        // The diagonals span the face even where two of its corners are one.
+        Vec3<T> const across = corners[at | u | v] - corners[at], aside = corners[at | v] - corners[at | u];
+        Vec3<T> const normal = safe_normalize(glm::cross(across, aside)).direction;
+        Vec3<T> const middle = (corners[at] + corners[at | u | v]) * T(0.5);
+        Vec3<T> const opposite = (corners[at ^ 1u << axis] + corners[(at ^ 1u << axis) | u | v]) * T(0.5);
+        T const sign = glm::dot(normal, opposite - middle) < T(0) ? T(-1) : T(1);
+        body.half_space[face] = sign * Vec4<T>(normal, -glm::dot(normal, middle));
+    }
+    return body;
+}
+
+// A box: its planes are known even where it is flat.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> convex_body(Aabb<T> const& box) noexcept {
+    ConvexBody<T> body = convex_body(corners(box));
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3<T> normal(T(0));
+        normal[axis] = T(1);
+        body.half_space[static_cast<unsigned>(2 * axis)] = Vec4<T>(normal, -box.lo[axis]);
+        body.half_space[static_cast<unsigned>(2 * axis + 1)] = Vec4<T>(-normal, box.hi[axis]);
+    }
     return body;
 }
 
@@ -68,6 +94,8 @@ template <class T>
     SHADOWMATH_ASSERT(body.face_count < max_body_faces, "a convex body was cut too often");
     if (body.face_count >= max_body_faces) return body;
     ConvexBody<T> kept;
+    kept.half_space = body.half_space;
+    kept.half_space[static_cast<unsigned>(body.face_count)] = half_space;
     auto const add = [&kept](typename ConvexBody<T>::Edge const& edge) {
         if (kept.edge_count < max_body_edges) kept.edges[static_cast<unsigned>(kept.edge_count++)] = edge;
     };
@@ -96,31 +124,50 @@ template <class T>
     return kept;
 }
 
+// The same body elsewhere.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> translated(ConvexBody<T> const& body, Vec3<T> const& offset) noexcept {
+    ConvexBody<T> moved = body;
+    for (int i = 0; i < body.edge_count; ++i) {
+        moved.edges[static_cast<unsigned>(i)].a += offset;
+        moved.edges[static_cast<unsigned>(i)].b += offset;
+    }
+    for (int i = 0; i < body.face_count; ++i) {
+        Vec4<T>& plane = moved.half_space[static_cast<unsigned>(i)];
+        plane.w -= glm::dot(Vec3<T>(plane), offset);
+    }
+    return moved;
+}
+
 // What a view sees of a box, RELATIVE TO THE EYE: add view.pose.position for world points. Boxes of +-FLT_MAX are cut
 // to the bounds of the view before any arithmetic. A valid view with a finite z_far; an empty box gives an empty body.
+// `slack_metres` moves every plane outward: a wedge thinner than a rounding then loses nothing of its tip.
 template <class T>
-[[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world) noexcept {
+[[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world,
+                                                T slack_metres = T(0)) noexcept {
     if (is_empty(box_in_world)) return {};
     Vec3<T> const &x = view.pose.right, &y = view.pose.up, &z = view.pose.forward;
     ViewVolume<T> centred = view;
     centred.pose.position = Vec3<T>(T(0));
     // NOTE: the square of this bound, times a few, still fits into a float.
     Aabb<T> const bound{Vec3<T>(T(-1e12)), Vec3<T>(T(1e12))};
-    Aabb<T> const relative{box_in_world.lo - view.pose.position, box_in_world.hi - view.pose.position};
-    Aabb<T> const box = intersect(intersect(relative, bounds_of(corners(centred))), bound);
+    Vec3<T> const slack(slack_metres);
+    Aabb<T> const relative{box_in_world.lo - view.pose.position - slack, box_in_world.hi - view.pose.position + slack};
+    Aabb<T> const seen = bounds_of(corners(centred));
+    Aabb<T> const box = intersect(intersect(relative, Aabb<T>{seen.lo - slack, seen.hi + slack}), bound);
     if (is_empty(box)) return {};
     bool const flat = view.kind == ViewKind::orthographic;
-    auto const side = [&z, flat](Vec3<T> const& inward, T limit) {
-        if (flat) return Vec4<T>(inward, -limit);
-        return Vec4<T>(safe_normalize(inward - z * limit).direction, T(0));
+    auto const side = [&z, flat, slack_metres](Vec3<T> const& inward, T limit) {
+        if (flat) return Vec4<T>(inward, slack_metres - limit);
+        return Vec4<T>(safe_normalize(inward - z * limit).direction, slack_metres);
     };
-    ConvexBody<T> body = convex_body(corners(box));
+    ConvexBody<T> body = convex_body(box);
     body = clipped(body, side(x, view.left));
     body = clipped(body, side(-x, -view.right));
     body = clipped(body, side(y, view.bottom));
     body = clipped(body, side(-y, -view.top));
-    body = clipped(body, Vec4<T>(z, -view.z_near));
-    return clipped(body, Vec4<T>(-z, view.z_far));
+    body = clipped(body, Vec4<T>(z, slack_metres - view.z_near));
+    return clipped(body, Vec4<T>(-z, view.z_far + slack_metres));
 }
 
 }  // namespace v0

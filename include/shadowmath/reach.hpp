@@ -9,6 +9,8 @@
 #include <shadowmath/light.hpp>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -30,6 +32,22 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
     return std::fmax(largest_of(box.lo), largest_of(box.hi));
+}
+
+// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
+// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
+[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x80000000u - 0x5d800000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x8000000000000000u - 0x43b0000000000000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
+    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
 }
 
 // Unit to a thousandth, as light_basis makes them for every light that is usable.

@@ -12,9 +12,12 @@
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>
 #include <shadowmath/finite.hpp>
+#include <shadowmath/reach.hpp>
+#include <shadowmath/wide.hpp>
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace shadowmath {
@@ -78,8 +81,9 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
-    Vec2<T> const scale = T(2) / (region.hi - region.lo);
-    Vec2<T> const offset = -(region.hi + region.lo) / (region.hi - region.lo);
+    Vec2<T> const size = region.hi - region.lo;
+    Vec2<T> const scale = T(2) / size, offset = -(region.hi + region.lo) / size;
+    if (!all_finite(size) || !all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
     return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
                      Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }
@@ -154,6 +158,206 @@ template <class T>
             T const t = above / (above - other);
             add(point[i] * (T(1) - t) + point[j] * t, glm::max(least * (share[i] * (T(1) - t) + share[j] * t), tiny));
         }
+    }
+    return bounds;
+}
+
+namespace detail {
+
+inline constexpr int bodies_at_once = 16;
+
+// Least and largest NDC so far, one of each for every place in a block of boxes.
+template <class T>
+struct BoundsInBlocks {
+    static constexpr int n = bodies_at_once;
+    static constexpr T none = std::numeric_limits<T>::max();
+    T lo[3][bodies_at_once];
+    T hi[3][bodies_at_once];
+
+    [[gnu::always_inline]] BoundsInBlocks() noexcept {
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < n; ++i) lo[r][i] = none, hi[r][i] = -none;
+    }
+    [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
+    [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
+    [[gnu::always_inline]] void add(int r, int i, std::uint32_t taken, T least, T most) noexcept {
+        lo[r][i] = less(lo[r][i], taken != 0 ? least : none);
+        hi[r][i] = more(hi[r][i], taken != 0 ? most : -none);
+    }
+    [[nodiscard]] Aabb<T> merged() const noexcept {
+        Aabb<T> all;
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < n; ++i) {
+                all.lo[r] = less(all.lo[r], lo[r][i]);
+                all.hi[r] = more(all.hi[r], hi[r][i]);
+            }
+        return all;
+    }
+};
+
+// Products of a row with both ends of each axis of a box. A corner is X + Y + Z, so that eight corners are six
+// products, and the extent of all of them is three sums.
+template <class T>
+struct EndProducts {
+    T x0, x1, y0, y1, z0, z1;
+
+    [[gnu::always_inline]] EndProducts(Vec4<T> const& row, BoxArrays<T> const& at, int i) noexcept
+        : x0(row.x * at.lo_x[i]), x1(row.x * at.hi_x[i]), y0(row.y * at.lo_y[i]), y1(row.y * at.hi_y[i]),
+          z0(row.z * at.lo_z[i] + row.w), z1(row.z * at.hi_z[i] + row.w) {}
+    [[gnu::always_inline]] T least() const noexcept {
+        return (x0 < x1 ? x0 : x1) + (y0 < y1 ? y0 : y1) + (z0 < z1 ? z0 : z1);
+    }
+    [[gnu::always_inline]] T most() const noexcept {
+        return (x0 > x1 ? x0 : x1) + (y0 > y1 ? y0 : y1) + (z0 > z1 ? z0 : z1);
+    }
+};
+
+// Bounds of whole blocks of boxes; projected_bounds below prepares the matrix.
+template <class T>
+struct BoundsOfBoxes {
+    Mat4<T> const& matrix;
+    T w_min;
+    BoxArrays<T> const& boxes;
+    int blocks;
+    Aabb<T>& bounds;
+
+    static constexpr int n = bodies_at_once;
+
+    [[gnu::always_inline]] static bool in_reach(BoxArrays<T> const& at) noexcept {
+        decltype(beyond_reach(T(0))) beyond = 0;
+        for (int i = 0; i < n; ++i)
+            beyond |= beyond_reach(std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) +
+                                   std::abs(at.hi_y[i]) + std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]));
+        return beyond >> (8 * sizeof beyond - 1) == 0;
+    }
+    [[gnu::always_inline]] static bool full(BoxArrays<T> const& at, int i) noexcept {
+        return (at.lo_x[i] <= at.hi_x[i]) & (at.lo_y[i] <= at.hi_y[i]) & (at.lo_z[i] <= at.hi_z[i]);
+    }
+
+    // w is the same everywhere: one quotient at the end serves all.
+    [[gnu::always_inline]] void affine() const noexcept {
+        BoundsInBlocks<T> so_far;
+        T least[bodies_at_once], most[bodies_at_once];
+        std::uint32_t taken[bodies_at_once];
+        for (int block = 0; block < blocks; ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, block * n);
+            if (!in_reach(at)) {
+                one_by_one(at, nullptr);
+                continue;
+            }
+            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
+            for (int r = 0; r < 3; ++r) {
+                Vec4<T> const above = row(matrix, r);
+                for (int i = 0; i < n; ++i) {
+                    EndProducts<T> const p(above, at, i);
+                    least[i] = p.least();
+                    most[i] = p.most();
+                }
+                // NOTE: in the loop above, this would become a branch.
+                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i], least[i], most[i]);
+            }
+        }
+        Aabb<T> const merged = so_far.merged();
+        if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{merged.lo / matrix[3][3], merged.hi / matrix[3][3]});
+    }
+
+    [[gnu::always_inline]] void perspective() const noexcept {
+        BoundsInBlocks<T> so_far;
+        T inverse[8][bodies_at_once];
+        std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
+        for (int block = 0; block < blocks; ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, block * n);
+            if (!in_reach(at)) {
+                one_by_one(at, nullptr);
+                continue;
+            }
+            std::uint32_t any_astride = 0;
+            Vec4<T> const below = row(matrix, 3);
+            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
+            for (int i = 0; i < n; ++i) {
+                EndProducts<T> const w(below, at, i);
+                T const least = w.least(), most = w.most();
+                std::uint32_t const in_front = least >= w_min ? ~0u : 0u, reaches = most >= w_min ? ~0u : 0u;
+                astride[i] = taken[i] & reaches & ~in_front;
+                taken[i] &= in_front;
+                any_astride |= astride[i];
+                T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
+                inverse[0][i] = T(1) / (xy00 + w.z0), inverse[1][i] = T(1) / (xy10 + w.z0);
+                inverse[2][i] = T(1) / (xy01 + w.z0), inverse[3][i] = T(1) / (xy11 + w.z0);
+                inverse[4][i] = T(1) / (xy00 + w.z1), inverse[5][i] = T(1) / (xy10 + w.z1);
+                inverse[6][i] = T(1) / (xy01 + w.z1), inverse[7][i] = T(1) / (xy11 + w.z1);
+            }
+            for (int r = 0; r < 3; ++r) {
+                Vec4<T> const above = row(matrix, r);
+                for (int i = 0; i < n; ++i) {
+                    EndProducts<T> const p(above, at, i);
+                    T const xy00 = p.x0 + p.y0, xy10 = p.x1 + p.y0, xy01 = p.x0 + p.y1, xy11 = p.x1 + p.y1;
+                    T const a = (xy00 + p.z0) * inverse[0][i], b = (xy10 + p.z0) * inverse[1][i];
+                    T const c = (xy01 + p.z0) * inverse[2][i], d = (xy11 + p.z0) * inverse[3][i];
+                    T const e = (xy00 + p.z1) * inverse[4][i], f = (xy10 + p.z1) * inverse[5][i];
+                    T const g = (xy01 + p.z1) * inverse[6][i], h = (xy11 + p.z1) * inverse[7][i];
+                    auto const less = [](T s, T t) { return BoundsInBlocks<T>::less(s, t); };
+                    auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
+                    T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
+                    T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
+                    so_far.add(r, i, taken[i], least, most);
+                }
+            }
+            if (any_astride != 0) one_by_one(at, astride);
+        }
+        bounds = merge(bounds, so_far.merged());
+    }
+
+    // `wanted`: null for all.
+    void one_by_one(BoxArrays<T> const& at, std::uint32_t const* wanted) const noexcept {
+        for (int i = 0; i < n; ++i) {
+            if (wanted != nullptr && wanted[i] == 0) continue;
+            Aabb<T> const box = box_at(at, i);
+            if (all_finite(box) && !is_empty(box))
+                bounds = merge(bounds, projected_bounds(matrix, corners(box), w_min));
+        }
+    }
+
+    [[gnu::always_inline]] void operator()() const noexcept {
+        bool const flat = matrix[0][3] == T(0) && matrix[1][3] == T(0) && matrix[2][3] == T(0);
+        if (flat)
+            affine();
+        else
+            perspective();
+    }
+};
+
+}  // namespace detail
+
+// The bounds of many boxes together: what projected_bounds of each, merged, would give, to rounding; a box that is
+// empty or not finite adds nothing. Fast where w_min is positive, or the matrix affine; otherwise box by box.
+template <class T>
+[[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, BoxArrays<T> const& boxes, int count,
+                                              T w_min) noexcept {
+    Aabb<T> bounds;
+    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return bounds;
+    Mat4<T> const& m = clip_from_world;
+    T entry = T(0);
+    for (int column = 0; column < 4; ++column)
+        for (int r = 0; r < 4; ++r) entry = glm::max(entry, std::abs(m[column][r]));
+    bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+    bool const ordinary = entry <= T(1e15) && (flat ? m[3][3] >= T(1e-15) && m[3][3] >= w_min : w_min >= T(1e-15));
+    constexpr int n = detail::bodies_at_once;
+    int const whole = ordinary && count > 0 ? count / n * n : 0;
+    if (whole > 0) detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, boxes, whole / n, bounds});
+    if (ordinary && count > whole) {
+        // What is left of a block, filled up with empty boxes.
+        T ends[6][n];
+        for (int i = 0; i < n; ++i) {
+            Aabb<T> const box = whole + i < count ? box_at(boxes, whole + i) : Aabb<T>{Vec3<T>(T(1)), Vec3<T>(T(0))};
+            for (int axis = 0; axis < 3; ++axis) ends[axis][i] = box.lo[axis], ends[axis + 3][i] = box.hi[axis];
+        }
+        BoxArrays<T> const rest{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
+        detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, rest, 1, bounds});
+    }
+    for (int i = ordinary ? count : 0; i < count; ++i) {
+        Aabb<T> const box = box_at(boxes, i);
+        if (all_finite(box) && !is_empty(box)) bounds = merge(bounds, projected_bounds(m, corners(box), w_min));
     }
     return bounds;
 }

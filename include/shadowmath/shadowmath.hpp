@@ -19,38 +19,69 @@
 
 // Where along the view.
 #include <shadowmath/slice.hpp>
+#include <shadowmath/slices.hpp>
 #include <shadowmath/splits.hpp>
 
 // How to look from the light.
 #include <shadowmath/depth_range.hpp>
 #include <shadowmath/fit_box.hpp>
 #include <shadowmath/fit_crop.hpp>
+#include <shadowmath/fit_cube.hpp>
+#include <shadowmath/fit_focus.hpp>
+#include <shadowmath/fit_rectangle.hpp>
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/light_box.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/polytope.hpp>
+#include <shadowmath/sweep.hpp>
 
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
-#include <shadowmath/polytope.hpp>
+#include <shadowmath/plane_choice.hpp>
+#include <shadowmath/points.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
 // Stillness; translate and scale.
+#include <shadowmath/clipmap.hpp>
 #include <shadowmath/region.hpp>
+#include <shadowmath/schedule.hpp>
+#include <shadowmath/scroll.hpp>
 #include <shadowmath/texel_grid.hpp>
 
 // What a matrix is worth, and needs.
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/bias.hpp>
+#include <shadowmath/culling.hpp>
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/tangent.hpp>
 
 // The one call.
 #include <shadowmath/cascades.hpp>
 
+// Which options.
+#include <shadowmath/choose.hpp>
+#include <shadowmath/judge.hpp>
+
+// The same for what is seen, pixel by pixel.
+#include <shadowmath/sample_bounds.hpp>
+#include <shadowmath/sample_depths.hpp>
+#include <shadowmath/sdsm.hpp>
+#include <shadowmath/stored_depth.hpp>
+
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
+#include <shadowmath/hfts.hpp>
+#include <shadowmath/moments.hpp>
+#include <shadowmath/msm.hpp>
+#include <shadowmath/pcss.hpp>
+#include <shadowmath/penumbra.hpp>
 #include <shadowmath/sampling.hpp>
+#include <shadowmath/vsm.hpp>
+
+// And what it reads.
+#include <shadowmath/gpu.hpp>
+#include <shadowmath/gpu_samples.hpp>
 
 // Exact hard shadows.
 #include <shadowmath/irregular.hpp>

@@ -63,14 +63,34 @@ template <class T>
 template <class T>
 inline void close_splits(Splits<T>& splits, T z_near, T z_far) noexcept {
     if (splits.count == 0) return;
-    int kept = 0;
     splits.plane[0] = z_near;
+    splits.plane[splits.count] = z_far;
+    bool ordered = true;
+    for (int i = 0; i < splits.count; ++i) ordered = ordered & (splits.plane[i] < splits.plane[i + 1]);
+    if (ordered) return;
+    int kept = 0;
     for (int i = 1; i < splits.count; ++i)
         if (splits.plane[i] > splits.plane[kept] && splits.plane[i] < z_far) splits.plane[++kept] = splits.plane[i];
     splits.plane[++kept] = z_far;
     if (kept != splits.count) splits.faults |= Fault::count_clamped;
     for (int i = kept + 1; i <= splits.count; ++i) splits.plane[i] = T(0);
     splits.count = kept;
+}
+
+// power[i] = ratio^(i / count), 0 < i < count. Where count is a power of two, from square roots alone: a pow costs more
+// than all else in a fit. Twice as many hold the same values at every other place, to the bit.
+template <class T>
+inline void powers_of_ratio(T ratio, int count, T* power) noexcept {
+    if ((count & (count - 1)) != 0) {
+        for (int i = 1; i < count; ++i) power[i] = std::pow(ratio, T(i) / T(count));
+        return;
+    }
+    power[0] = T(1);
+    T root = ratio;
+    for (int step = count / 2; step > 0; step /= 2) {
+        root = std::sqrt(root);
+        for (int i = step; i < count; i += 2 * step) power[i] = power[i - step] * root;
+    }
 }
 
 template <class T>
@@ -95,11 +115,18 @@ template <class T>
     if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
     T const ratio = has_ratio ? z_far / z_near : T(1 << 20);
     T const log_near = has_ratio ? z_near : z_far / ratio;
-    for (int i = 1; i < splits.count; ++i) {
-        T const fraction = T(i) / T(splits.count);
-        T const uniform = z_near + (z_far - z_near) * fraction;
-        T const logarithmic = weight > T(0) ? log_near * std::pow(ratio, fraction) : T(0);
-        splits.plane[i] = weight * logarithmic + (T(1) - weight) * uniform;
+    auto const blended = [&](T fraction, T power) {
+        return weight * (log_near * power) + (T(1) - weight) * (z_near + (z_far - z_near) * fraction);
+    };
+    if (splits.count == 4 && weight > T(0)) {
+        // What most renderers ask for, without a loop; the same bits.
+        T const half = std::sqrt(ratio), quarter = std::sqrt(half);
+        splits.plane[1] = blended(T(0.25), quarter);
+        splits.plane[2] = blended(T(0.5), half);
+        splits.plane[3] = blended(T(0.75), half * quarter);
+    } else {
+        if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
+        for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
     }
     detail::close_splits(splits, z_near, z_far);
     return splits;

@@ -14,6 +14,13 @@
 namespace shadowmath {
 inline namespace v0 {
 
+// matrix * (point, 1) with its order of sums written out, so that a caster, its receiver, every build of GLM and the
+// GLSL twin round alike.
+template <class T>
+[[nodiscard]] inline Vec4<T> transformed(Mat4<T> const& matrix, Vec3<T> const& point) noexcept {
+    return matrix[0] * point.x + (matrix[1] * point.y + (matrix[2] * point.z + matrix[3]));
+}
+
 template <class T>
 struct Projected {
     Vec3<T> at{T(0)};       // after the division
@@ -25,7 +32,7 @@ struct Projected {
 template <class T>
 [[nodiscard]] inline Projected<T> projected(Mat4<T> const& matrix, Vec3<T> const& point, T w_min = T(0)) noexcept {
     if (!all_finite(matrix) || !all_finite(point)) return {};
-    Vec4<T> const clip = matrix * Vec4<T>(point, T(1));
+    Vec4<T> const clip = transformed(matrix, point);
     if (!(clip.w > T(0)) || !(clip.w > w_min)) return {};
     Vec3<T> const at = Vec3<T>(clip) / clip.w;
     if (!all_finite(at) || !all_finite(&clip.w, 1)) return {};
@@ -36,7 +43,7 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Vec3<T> gain_along(Mat4<T> const& matrix, Projected<T> const& point,
                                         Vec3<T> const& direction) noexcept {
-    Vec4<T> const clip = matrix * Vec4<T>(direction, T(0));
+    Vec4<T> const clip = matrix[0] * direction.x + (matrix[1] * direction.y + matrix[2] * direction.z);
     return (Vec3<T>(clip) - point.at * clip.w) / point.w;
 }
 

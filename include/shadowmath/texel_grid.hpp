@@ -45,42 +45,75 @@ struct TexelGrid {
     bool visible = false;  // false: no window, and no map from it
 };
 
+// The window of map_size texels whose middle is nearest to `center` while its corner is a whole multiple of
+// `step_texels`: 1, or the texels of a page (clipmap.hpp). So the centre is at most half a step off. Not visible:
+// arguments that are not finite, or not positive, or out of the reach of the scalar type.
+template <class T>
+[[nodiscard]] inline TexelGrid<T> grid_window(LightBasis<T> const& basis, Vec3<T> const& center, T const& texel_metres,
+                                              int map_size, int step_texels = 1) noexcept {
+    TexelGrid<T> grid;
+    if (!all_finite(center) || !all_finite(&texel_metres, 1)) grid.faults |= Fault::not_finite;
+    if (!detail::has_unit_axes(basis)) grid.faults |= Fault::bad_pose;
+    if (map_size < 1 || step_texels < 1) grid.faults |= Fault::map_too_small;
+    if (grid.faults.any() || !(texel_metres >= detail::least_metres<T>)) return grid;
+    // Double for float too: the rounding to whole texels then adds nothing to what the inputs have lost.
+    using Exact = decltype(T() + double());
+    Exact const step = Exact(step_texels);
+    auto const lower_left = [&](Vec3<T> const& axis) {
+        Exact const at = glm::dot(Vec3<Exact>(axis), Vec3<Exact>(center));
+        return step * std::floor((at / Exact(texel_metres) - Exact(map_size) / 2) / step + Exact(0.5));
+    };
+    Exact const x = lower_left(basis.x), y = lower_left(basis.y);
+    Exact const reach = std::fmax(std::abs(x), std::abs(y)) + Exact(map_size);
+    // Four roundings of a coordinate lie between a world point and its texel: 2^-6 / 4.
+    if (!(reach * Exact(std::numeric_limits<T>::epsilon()) <= Exact(1) / 256)) grid.faults |= Fault::precision_lost;
+    constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
+    if (!(reach < whole_numbers)) return grid;
+    grid.basis = basis;
+    grid.x = static_cast<std::int64_t>(x);
+    grid.y = static_cast<std::int64_t>(y);
+    grid.texel_metres = texel_metres;
+    grid.map_size = map_size;
+    grid.visible = true;
+    return grid;
+}
+
+// Metres of a texel with which a window holds this sphere wherever its centre is, and `margin_texels` around it.
+template <class T>
+[[nodiscard]] inline T texel_for(T radius, int map_size, T margin_texels) noexcept {
+    // Up by the roundings of this line and of the window's own extent.
+    return radius / (usable_texels(map_size, margin_texels) - T(1)) *
+           (T(2) + T(16) * std::numeric_limits<T>::epsilon());
+}
+
 // The window holds the sphere and `margin_texels` texels around it. Its place is a whole number of texels, its texel
 // the same bits for the same radius. A radius of 0 (no slice) is not visible and no fault.
 template <class T>
 [[nodiscard]] inline TexelGrid<T> texel_grid(LightBasis<T> const& basis, Sphere<T> const& sphere, int map_size,
                                              T margin_texels) noexcept {
-    TexelGrid<T> grid;
-    grid.faults = faults_of_margin(map_size, margin_texels);
-    if (!all_finite(sphere.center) || !all_finite(&sphere.radius, 1)) grid.faults |= Fault::not_finite;
-    if (!detail::has_unit_axes(basis)) grid.faults |= Fault::bad_pose;
-    if (grid.faults.has(Fault::not_finite) || grid.faults.has(Fault::map_too_small) ||
-        grid.faults.has(Fault::bad_pose) || !(sphere.radius > T(0)))
-        return grid;
-    constexpr T eps = std::numeric_limits<T>::epsilon();
-    // Up by the roundings of this line and of the window's own extent.
-    T const texel = sphere.radius / (usable_texels(map_size, margin_texels) - T(1)) * (T(2) + T(16) * eps);
-    // Double for float too: the rounding to whole texels then adds nothing to what the inputs have lost.
-    using Exact = decltype(T() + double());
-    auto const lower_left = [&](Vec3<T> const& axis) {
-        Exact const center = glm::dot(Vec3<Exact>(axis), Vec3<Exact>(sphere.center));
-        return std::floor(center / Exact(texel) - Exact(map_size) / 2 + Exact(0.5));
-    };
-    Exact const x = lower_left(basis.x), y = lower_left(basis.y);
-    Exact const reach = std::fmax(std::abs(x), std::abs(y)) + Exact(map_size);
-    // Four roundings of a coordinate lie between a world point and its texel: 2^-6 / 4.
-    if (!(reach * Exact(eps) <= Exact(1) / 256)) grid.faults |= Fault::precision_lost;
-    constexpr Exact whole_numbers = Exact(std::int64_t(1) << 52);
-    if (!(reach < whole_numbers) || !(texel >= detail::least_metres<T>) ||
-        !(sphere.radius <= detail::farthest_metres<T>))
-        return grid;
-    grid.basis = basis;
-    grid.x = static_cast<std::int64_t>(x);
-    grid.y = static_cast<std::int64_t>(y);
-    grid.texel_metres = texel;
-    grid.map_size = map_size;
-    grid.visible = true;
+    TexelGrid<T> none;
+    none.faults = faults_of_margin(map_size, margin_texels);
+    if (!all_finite(sphere.center) || !all_finite(&sphere.radius, 1)) none.faults |= Fault::not_finite;
+    if (!detail::has_unit_axes(basis)) none.faults |= Fault::bad_pose;
+    if (none.faults.has(Fault::not_finite) || none.faults.has(Fault::map_too_small) ||
+        none.faults.has(Fault::bad_pose) || !(sphere.radius > T(0)) || !(sphere.radius <= detail::farthest_metres<T>))
+        return none;
+    TexelGrid<T> grid = grid_window(basis, sphere.center, texel_for(sphere.radius, map_size, margin_texels), map_size);
+    grid.faults |= none.faults;
     return grid;
+}
+
+// A size for what is `needed` that a slow zoom does not change in every frame: the previous one, while that is enough
+// and not a quarter too much; else the least eighth of an octave, 2^(k/8), that is enough. At least `needed`, and at
+// most 5/4 of it. `needed` itself where it is not positive, or nothing came before (a previous of 0).
+template <class T>
+[[nodiscard]] inline T held_size(T const& needed, T const& previous) noexcept {
+    if (!all_finite(&needed, 1) || !all_finite(&previous, 1) || !(needed > T(0)) || !(previous > T(0))) return needed;
+    if (needed <= previous && previous <= needed * T(1.25)) return previous;
+    T const steps = std::ceil(std::log2(needed) * T(8));
+    T const size = std::exp2(steps / T(8)), next = std::exp2((steps + T(1)) / T(8));
+    T const held = size >= needed ? size : next;
+    return all_finite(&held, 1) && held <= needed * T(1.25) ? held : needed;
 }
 
 // The window as a box, for depth_range. Its sides are rounded to T, which clip_from_world below does not do.

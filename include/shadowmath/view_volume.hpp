@@ -208,7 +208,8 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(T(2) / width * x - (view.right + view.left) / width * w,
                   T(2) / height * y - (view.top + view.bottom) / height * w, scale * (depth - n * one), w);
-    return all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
+    Mat4<T> const converted = clip_from_canonical<T>(clip) * canonical;
+    return all_finite(converted) ? converted : nowhere<T>();
 }
 
 }  // namespace v0

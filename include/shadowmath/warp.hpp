@@ -7,14 +7,24 @@
 //        eye . . . . y_near ->  \__________/           differ in a, the distance of the centre behind the near end:
 //                                                      a -> infinity is the uniform map, a = z_near Stamminger's.
 //
+//   strength 0   uniform                                   the identity of the family, bit for bit
+//   strength 1   the least worst error along the view      LiSPSM (Wimmer 2004): a = (n + sqrt(n f)) / sine
+//   strength 2   texels as wide as pixels                  PSM (Stamminger 2002): a = n / sine; worst at the far end
+//   between      Lloyd's eta + 1 (2006) above 1, a share of 1 / a below
+//   trapezoid    80 % of the map up to a given depth       TSM (Martin and Tan 2004)
+//   extended     w grows by a constant per metre           XPSM (Gusev 2007)
+//
+// PSM is here without its troubles: light from behind the viewer, which turns its depth around, and casters behind
+// the eye are ordinary, as depth is measured along the light and w is 1 at the nearest receiver.
+//
 // Use it for one map and a low sun or a level view. Where light and view are parallel nothing can be gained, and the
 // warp fades to a uniform map. Like every map that depends on the view it shimmers when the camera moves; cascades do
 // not.
 //
-// Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in Wimmer,
-// Scherzer, Purgathofer 2004 (LiSPSM), with Scherzer's general tilt. Departures from the weblog: the whole of the map
+// Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in the papers
+// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole of the map
 // is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
-// of the light.
+// of the light. From the papers: every warp is fitted anew after it, and fades with the same angle.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -29,6 +39,7 @@
 #include <shadowmath/view_volume.hpp>
 
 #include <cmath>
+#include <cstdint>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -67,6 +78,49 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T optimal_inverse_centre(T z_near, T length, T sine) noexcept {
     return sine / (z_near * (T(1) + std::sqrt(T(1) + length * sine / z_near)));
+}
+
+// The same for Lloyd's eta in [-1, 1]: -1 uniform, 0 the optimum above, 1 Stamminger's z_near / sine. Increases with
+// eta.
+template <class T>
+[[nodiscard]] inline T lloyd_inverse_centre(T eta, T z_near, T length, T sine) noexcept {
+    T const growth = length * sine / z_near, root = std::sqrt(T(1) + growth);
+    T const share = eta < T(0) ? (T(1) + eta) / (T(1) + root - eta * growth) : (T(1) + eta * root) / (T(1) + root);
+    return sine / z_near * share;
+}
+
+// Lloyd's fall-off of eta, for a light whose rays are `angle` radians from the view's axis: -1 while the light is
+// nearly in the middle of the picture, 0 where it is well outside. `half_fov_radians`: half the view's angle in the
+// plane of the light. Continuous; with the first transition mended as later engines have it.
+template <class T>
+[[nodiscard]] inline T lloyd_eta(T angle, T half_fov_radians) noexcept {
+    constexpr T quarter_turn = T(1.57079632679489661923132169163975144L), at_edge = T(-0.2);
+    T const gamma = angle > quarter_turn ? T(2) * quarter_turn - angle : angle;
+    T const first = half_fov_radians / T(3), edge = half_fov_radians;
+    T const last = edge + T(0.3) * (quarter_turn - edge);
+    if (!(gamma > first)) return T(-1);
+    if (gamma < edge)
+        return (at_edge + T(1)) * (T(1) - std::cos(quarter_turn * (gamma - first) / (edge - first))) - T(1);
+    if (gamma < last) return at_edge * (T(1) - std::sin(quarter_turn * (gamma - edge) / (last - edge)));
+    return T(0);
+}
+
+// 1 / a that spreads the first `focus_length` metres of the body over `share` of the map; Martin and Tan's eta is this
+// a. 0 where that is no more than they have anyway. `focus_length` and `length` > 0, `share` in (0, 1).
+template <class T>
+[[nodiscard]] inline T trapezoid_inverse_centre(T length, T focus_length, T share = T(0.8)) noexcept {
+    T const inverse = (share / focus_length - T(1) / length) / (T(1) - share);
+    return inverse > T(0) ? inverse : T(0);
+}
+
+// 1 / a for Gusev's w = 1 + (coefficient / sine) y, y in metres from the eye, of a body that begins at `y_near`. Where
+// that is behind the eye w is kept at 0.15 or more, as his demo does.
+template <class T>
+[[nodiscard]] inline T extended_inverse_centre(T coefficient, T sine, T y_near) noexcept {
+    T const slope = glm::clamp(coefficient, T(0), T(1e9)) / glm::max(sine, T(1e-9));
+    T const most = y_near < T(0) ? T(-0.85) / y_near : slope;
+    T const growth = slope < most ? slope : most;
+    return growth / (T(1) + growth * y_near);
 }
 
 // The warp itself, before any fit. `axes.y` points from near to far, `y_near` is where w = 1; both relative to
@@ -114,12 +168,43 @@ template <class T>
     return axes;
 }
 
+enum class WarpRule : std::uint8_t { by_strength, trapezoid, extended };
+
 template <class T>
 struct WarpOptions {
     int map_size = 1024;
     T margin_texels = T(2);  // of the map kept free on each side, for the filter
-    T strength = T(1);       // [0, 1]: 1 the least aliasing along the view, 0 the uniform map
+    T strength = T(1);       // [0, 2]: 0 the uniform map, 1 the least aliasing along the view, 2 Stamminger's;
+                             // of the other rules a factor of 1 / a
+    WarpRule rule = WarpRule::by_strength;
+    T focus_metres = T(20);   // trapezoid: eye depth up to which 80 % of the map go
+    T coefficient = T(0.05);  // extended: what w grows by, for a metre across a light at a right angle
 };
+
+namespace detail {
+
+// 1 / a by the rules' own measures, none of them stronger than Stamminger's.
+template <class T>
+[[nodiscard]] inline T inverse_centre(WarpOptions<T> const& options, T strength, T z_near, T y_near, T length,
+                                      T sine) noexcept {
+    T const most = sine / z_near;
+    T inverse = T(0);
+    if (options.rule == WarpRule::by_strength) {
+        if (strength > T(1)) return lloyd_inverse_centre(strength - T(1), z_near, length, sine);
+        return strength * optimal_inverse_centre(z_near, length, sine);
+    }
+    if (options.rule == WarpRule::trapezoid) {
+        // Of eye depth, along the ground: a metre of depth is 1 / sine of light space.
+        T const focus = (options.focus_metres - z_near) / glm::max(sine, T(1e-3));
+        T const least = length * T(1e-3);
+        if (length > T(0)) inverse = trapezoid_inverse_centre(length, focus > least ? focus : least);
+    } else {
+        inverse = extended_inverse_centre(options.coefficient, sine, y_near);
+    }
+    return glm::clamp(strength * inverse, T(0), most);
+}
+
+}  // namespace detail
 
 // One warped map of what the slice sees of the receivers, and of every caster above it; it fills the map up to the
 // margin. w > 0 on all of them: w is 1 at the near end, grows from there, and is the same all along a light ray.
@@ -135,9 +220,11 @@ template <class T>
     map.clip = clip;
     Door<T> const in = door(slice, light, casters, receivers, options.map_size, options.margin_texels);
     map.faults = in.faults;
-    if (!all_finite(&options.strength, 1)) map.faults |= Fault::not_finite;
-    if (in.stop || !all_finite(&options.strength, 1)) return map;
-    T const strength = glm::clamp(options.strength, T(0), T(1));
+    bool const finite =
+        all_finite(&options.strength, 1) && all_finite(&options.focus_metres, 1) && all_finite(&options.coefficient, 1);
+    if (!finite) map.faults |= Fault::not_finite;
+    if (in.stop || !finite) return map;
+    T const strength = glm::clamp(options.strength, T(0), T(2));
     if (strength != options.strength) map.faults |= Fault::clamped_option;
 
     ConvexBody<T> const body = visible_body(in.view, receivers);
@@ -155,8 +242,8 @@ template <class T>
         // Nearer than 2^-20 of the far distance no ratio of depths means anything.
         T const nearest = in.view.z_far / T(1 << 20);
         if (!(in.view.z_near > T(0))) map.faults |= Fault::near_clamped;
-        inverse_centre =
-            strength * axes.fade * optimal_inverse_centre(glm::max(eye_metres.lo, nearest), y.hi - y.lo, axes.sine);
+        inverse_centre = axes.fade * detail::inverse_centre(options, strength, glm::max(eye_metres.lo, nearest), y.lo,
+                                                            y.hi - y.lo, axes.sine);
     }
     MapRows<T> rows = perspective_warp(axes.basis, y.lo, inverse_centre);
     rows.least_width = glm::max(x.hi - x.lo, y.hi - y.lo) / T(options.map_size);

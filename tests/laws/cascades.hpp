@@ -47,6 +47,15 @@ template <class T>
     return true;
 }
 
+// Of the ground that a sun's map covers, across the light.
+template <class T>
+[[nodiscard]] long double square_metres(ShadowMap<T> const& map) {
+    auto const length = [&](int r) {
+        return glm::length(Vec3<long double>(Vec4<long double>(row(map.clip_from_world, r))));
+    };
+    return 2 / length(0) * (2 / length(1));
+}
+
 // Where in its texel a world point falls, moved by less than `texels` between two fits.
 template <class T>
 [[nodiscard]] bool keeps_its_place(Mat4<T> const& before, Mat4<T> const& after, int map_size, Vec3<T> const& world,

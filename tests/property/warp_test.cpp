@@ -29,12 +29,15 @@ TYPED_TEST(WarpProperty, ServesWhatTheViewSeesAndTheCastersBetweenItAndTheLight)
         SeenCase<T> const scene = *seen_case<T>();
         Light<T> const light = *sun<T>();
         T const away = *log_uniform<T>(T(1e-3), T(100));
-        T const strength = *uniform<T>(T(0), T(1));
+        T const strength = *uniform<T>(T(0), T(2));
+        auto const rule = static_cast<WarpRule>(*below(3));
         T const distance = away * glm::length(scene.point - scene.view.pose.position);
         Vec3<T> const caster = scene.point - light.direction * distance;
         Aabb<T> const casters = merge(scene.receivers, caster);
         WarpOptions<T> options;
         options.strength = strength;
+        options.rule = rule;
+        options.focus_metres = distance;
         ShadowMap<T> const map =
             simple_perspective_map(scene.view, light, casters, scene.receivers, options, scene.clip);
         RC_ASSERT(laws::harmless(map));
@@ -60,6 +63,9 @@ TYPED_TEST(WarpProperty, IsFiniteAndCalmForAnyInput) {
         bool const odd = *one_in(3);
         T const margin = *nasty<T>();
         T const strength = *nasty<T>();
+        options.rule = static_cast<WarpRule>(*below(3));
+        bool const odd_rule = *one_in(3);
+        if (odd_rule) options.focus_metres = options.coefficient = strength;
         if (odd) {
             options.margin_texels = margin;
             options.strength = strength;

@@ -49,6 +49,93 @@ TYPED_TEST(CascadesOf, TightMapsHaveSmallerTexelsThanStableOnes) {
     for (int i = 0; i < stable.count; ++i) EXPECT_LT(tight.at[i].texel_metres, stable.at[i].texel_metres);
 }
 
+TYPED_TEST(CascadesOf, RectanglesCoverLessThanBoxesAndTheFocusLessThanRectangles) {
+    using T = TypeParam;
+    this->view.pose = pose_looking(this->view.pose.position, Vec3<T>(T(1), T(-0.1), T(-2)), this->view.pose.up);
+    double covered[3] = {};
+    for (int i = 0; i < 3; ++i) {
+        this->options.fit = static_cast<CascadeFit>(1 + i);
+        auto const cascades = this->fitted();
+        EXPECT_FALSE(cascades.faults.any());
+        for (auto const& c : cascades) {
+            EXPECT_TRUE(c.map.visible);
+            EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+            covered[i] += static_cast<double>(laws::square_metres(c.map));
+        }
+    }
+    EXPECT_LT(covered[1], 0.95 * covered[0]);
+    EXPECT_LT(covered[2], 0.95 * covered[1]);
+}
+
+TYPED_TEST(CascadesOf, RectanglesKeepTheAngleOfTheLastFrame) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::rectangle;
+    auto const before = this->fitted();
+    // Half a degree to the left.
+    this->view.pose = pose_looking(this->view.pose.position, Vec3<T>(T(-0.009), T(0), T(-1)), this->view.pose.up);
+    auto const after = fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
+    for (int i = 0; i < after.count; ++i) {
+        auto const x = [i](Cascades<T> const& c) {
+            return safe_normalize(Vec3<T>(row(c.at[i].map.clip_from_world, 0))).direction;
+        };
+        EXPECT_NEAR(glm::dot(x(before), x(after)), T(1), 1e-6);
+        EXPECT_LT(glm::dot(x(this->fitted()), x(before)), T(1) - T(1e-5));
+    }
+}
+
+// From 60 to 30 degrees and back in half degrees: with the last frame at hand texels change a few times, not each time.
+TYPED_TEST(CascadesOf, ASlowZoomKeepsTheTexelsOfStableMaps) {
+    using T = TypeParam;
+    auto last = this->fitted();
+    int changes = 0;
+    for (int i = 0; i <= 120; ++i) {
+        T const half = T(0.2618) + T(0.2618) * std::abs(T(1) - T(i) / T(60));
+        ViewVolume<T> zoomed = this->view;
+        zoomed.top = std::tan(half);
+        zoomed.bottom = -zoomed.top;
+        zoomed.right = zoomed.top * T(1.6);
+        zoomed.left = -zoomed.right;
+        auto const now = fit_cascades(zoomed, this->sun, this->world, this->world, this->options, &last);
+        T const needed = fit_cascades(zoomed, this->sun, this->world, this->world, this->options).at[2].texel_metres;
+        EXPECT_GE(now.at[2].texel_metres, needed);
+        EXPECT_LE(now.at[2].texel_metres, needed * T(1.25));
+        changes += now.at[2].texel_metres != last.at[2].texel_metres;
+        last = now;
+    }
+    EXPECT_LE(changes, 16);
+}
+
+TYPED_TEST(CascadesOf, TheNearestMapsStayStableBeforeAnyOtherFit) {
+    auto const stable = this->fitted();
+    this->options.fit = CascadeFit::rectangle;
+    this->options.steady_maps = 2;
+    auto const mixed = this->fitted();
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(mixed.at[i].map.clip_from_world == stable.at[i].map.clip_from_world, i < 2) << i;
+}
+
+TYPED_TEST(CascadesOf, WarpedSlicesAreWarpedMaps) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::warped;
+    auto const cascades = this->fitted();
+    for (auto const& c : cascades) {
+        EXPECT_TRUE(c.map.visible);
+        EXPECT_GT(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
+        EXPECT_TRUE(laws::is_map_of(c.map.clip_from_world, this->sun, this->options.clip));
+        EXPECT_EQ(c.texel_metres, T(0));
+    }
+    this->options.warp_strength = T(0);
+    for (auto const& c : this->fitted()) EXPECT_EQ(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
+}
+
+TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {
+    this->options.fit = CascadeFit::focus;
+    auto const whole = this->fitted();
+    this->options.pancake = true;
+    auto const flat = this->fitted();
+    for (int i = 0; i < flat.count; ++i) EXPECT_LT(flat.at[i].depth_metres, whole.at[i].depth_metres);
+}
+
 TYPED_TEST(CascadesOf, NothingFollowsTheShadowDistance) {
     this->options.shadow_distance = TypeParam(120);
     auto const cascades = this->fitted();

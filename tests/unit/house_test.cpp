@@ -66,8 +66,9 @@ TEST(House, TheReadmeShowsCodeThatCompiles) {
 }
 
 TEST(House, HeadersIncludeGlmAndLightStandardHeadersOnly) {
-    std::set<std::string> const light = {"array",  "cmath",       "cstdint", "cstring",
-                                         "limits", "glm/glm.hpp", "cassert", "shadowmath_user_config.hpp"};
+    std::set<std::string> const light = {"array",       "cmath",   "cstddef",
+                                         "cstdint",     "cstring", "limits",
+                                         "glm/glm.hpp", "cassert", "shadowmath_user_config.hpp"};
     for (fs::path const& header : sources_under("include/shadowmath"))
         for (std::string const& included : includes_of(header))
             EXPECT_TRUE(light.count(included) == 1 || included.rfind("shadowmath/", 0) == 0 ||
@@ -105,6 +106,32 @@ TEST(House, EveryPublicFunctionIsInstantiatedByTheCompileTests) {
     for (fs::path const& header : sources_under("include/shadowmath"))
         for (std::string const& name : matches(std::regex_replace(code_of(header), hidden, "\n"), declaration))
             EXPECT_TRUE(std::regex_search(called, std::regex("\\b" + name + "\\b"))) << header << ": " << name;
+}
+
+TEST(House, EveryAssertionIsSeenToFail) {
+    std::regex const assertion(R"re(\bSHADOWMATH_ASSERT\([^;]*"([^"]+)"\);)re");
+    std::string const broken = text_of(root / "tests/misuse/misuse_test.cpp");
+    int count = 0;
+    for (fs::path const& header : sources_under("include/shadowmath"))
+        for (std::string const& sentence : matches(code_of(header), assertion)) {
+            ++count;
+            EXPECT_NE(broken.find('"' + sentence + '"'), std::string::npos) << header << ": " << sentence;
+        }
+    EXPECT_GE(count, 5);
+}
+
+TEST(House, TheVisualStudioDebuggerKnowsEveryFault) {
+    std::string const natvis = text_of(root / "debug/shadowmath.natvis");
+    std::string const header = text_of(root / "include/shadowmath/fault.hpp");
+    std::regex const enumerator(R"(\n    (\w+) = 1u << (\d+))");
+    int count = 0;
+    for (auto it = std::sregex_iterator(header.begin(), header.end(), enumerator); it != std::sregex_iterator();
+         ++it, ++count) {
+        std::string const bit = std::to_string(1u << std::stoi((*it)[2]));
+        std::string const item = "<Item Name=\"" + (*it)[1].str() + "\" Condition=\"(bits &amp; " + bit + ") != 0\">";
+        EXPECT_NE(natvis.find(item), std::string::npos) << item;
+    }
+    EXPECT_GE(count, 16);
 }
 
 TEST(House, EveryHeaderHasLawsOrAUnitTest) {

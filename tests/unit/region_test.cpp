@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace shadowmath;
 
 namespace {
@@ -46,6 +48,13 @@ TEST(Region, OfARegionIsTheirProduct) {
     glm::dmat4 const product = region_matrix(inner) * region_matrix(outer), direct = region_matrix(both);
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) EXPECT_NEAR(product[c][r], direct[c][r], test::tolerance(4.0, 8));
+}
+
+TEST(Region, WhoseScaleWouldNotBeFiniteIsTheIdentity) {
+    constexpr float least = std::numeric_limits<float>::denorm_min(), most = std::numeric_limits<float>::max();
+    EXPECT_EQ(region_matrix(Region<float>{glm::vec2(0), glm::vec2(least)}), glm::mat4(1.0f));
+    EXPECT_EQ(region_matrix(Region<float>{glm::vec2(-most), glm::vec2(most)}), glm::mat4(1.0f));
+    EXPECT_EQ(region_matrix(Region<float>{glm::vec2(most * 0.9f), glm::vec2(most)}), glm::mat4(1.0f));
 }
 
 TEST(Region, WithoutAreaOrNotFiniteIsTheIdentity) {

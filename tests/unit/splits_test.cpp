@@ -83,3 +83,9 @@ TEST(Splits, BeginWithTheOneThatIsPinned) {
     EXPECT_TRUE(pinned_splits(0.1, 200.0, 4, 500.0).faults.has(Fault::clamped_option));
     EXPECT_EQ(planes(pinned_splits(0.1, 200.0, 4, 500.0)), planes(practical_splits(0.1, 200.0, 4)));
 }
+
+TEST(Splits, LambdaIsAHalfWhereNoFirstSplitCouldTellIt) {
+    EXPECT_EQ(lambda_for_first_split(1.0, 10.0, 1, 3.0), 0.5) << "one split has no inner plane";
+    EXPECT_EQ(lambda_for_first_split(10.0, 1.0, 3, 3.0), 0.5);
+    EXPECT_EQ(lambda_for_first_split(1.0, 10.0, 3, std::numeric_limits<double>::infinity()), 0.5);
+}

@@ -151,3 +151,50 @@ TYPED_TEST(TexelGridOf, BadInputIsNamedAndHarmless) {
     EXPECT_EQ(clip_from_world(usable, T(2), T(1), gl_clip), nowhere<T>());
     EXPECT_EQ(clip_from_world(usable, T(2), nan, gl_clip), nowhere<T>());
 }
+
+TEST(HeldSize, IsEnoughAndNoMoreThanAQuarterTooMuch) {
+    for (double needed = 0.01; needed < 100.0; needed *= 1.013)
+        for (double const before : {0.0, 0.02, 1.0, 7.0, 50.0}) {
+            double const held = held_size(needed, before);
+            EXPECT_GE(held, needed);
+            EXPECT_LE(held, needed * 1.25);
+            EXPECT_EQ(held_size(needed, held), held);
+        }
+}
+
+TEST(HeldSize, ChangesInEighthsOfAnOctaveWhileASlowZoomGoesOn) {
+    // In and out by a factor of four, a thousandth a frame: two octaves of eighths each way, and no more.
+    double size = 1.0;
+    int changes = 0;
+    for (int i = 0; i < 4 * 1386; ++i) {
+        double const needed = std::exp2(2.0 * std::abs(std::sin(3.14159265 * i / 2772)));
+        double const held = held_size(needed, size);
+        changes += held != size;
+        size = held;
+    }
+    EXPECT_LE(changes, 4 * (2 * 8 + 1));
+    EXPECT_GT(changes, 16);
+}
+
+TEST(HeldSize, IsWhatIsNeededWhereThereIsNothingToHold) {
+    EXPECT_EQ(held_size(0.3, 0.0), 0.3);
+    EXPECT_EQ(held_size(0.0, 1.0), 0.0);
+    EXPECT_EQ(held_size(1e38f, 1.0f), held_size(1e38f, 1.0f));
+    EXPECT_GE(held_size(3.3e38f, 1.0f), 3.3e38f);
+    double const nan_ = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(held_size(0.3, nan_), 0.3);
+}
+
+TEST(GridWindow, StandsOnWholePages) {
+    LightBasis<double> const axes = light_basis(glm::dvec3(0, -1, 0));
+    for (double x = -300; x < 300; x += 1.7) {
+        auto const grid = grid_window(axes, glm::dvec3(x, 0, 2 * x), 0.25, 512, 128);
+        EXPECT_TRUE(grid.visible);
+        EXPECT_EQ(grid.x % 128, 0);
+        EXPECT_EQ(grid.y % 128, 0);
+        EXPECT_LE(std::abs(double(grid.x) + 256 - x * 4), 64.0);
+    }
+    EXPECT_FALSE(grid_window(axes, glm::dvec3(0), 0.0, 512).visible);
+    EXPECT_FALSE(grid_window(axes, glm::dvec3(0), 1.0, 512, 0).visible);
+    EXPECT_FALSE(grid_window(axes, glm::dvec3(1e300), 1.0, 512).visible);
+}

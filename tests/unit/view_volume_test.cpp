@@ -106,6 +106,13 @@ TEST(ViewVolume, FloatCornersAtAFarDistanceOfAMillionAreStillThere) {
     EXPECT_TRUE(laws::has_accurate_corners(perspective_view(pose, 1.0f, 1.7f, 1e-3f, 1e6f)));
 }
 
+TEST(ViewVolume, WhoseMatrixWouldOverflowInOneConventionIsNowhereThere) {
+    // 1 / range fits into a float, the twice of it that depth in [-1, 1] needs does not.
+    ViewVolume<float> const flat = orthographic_view(Pose<float>{}, -1.0f, 1.0f, -1.0f, 1.0f, 0.0f, 4e-39f);
+    EXPECT_TRUE(all_finite(clip_from_world(flat, vulkan_clip)));
+    EXPECT_EQ(clip_from_world(flat, gl_clip), nowhere<float>());
+}
+
 TEST(Pose, LooksAlongItsForwardAxisWithUpAboveTheHorizon) {
     Pose<double> const pose = pose_looking(glm::dvec3(1, 2, 3), glm::dvec3(0, 0, -5), glm::dvec3(0, 1, 0));
     EXPECT_EQ(pose.position, glm::dvec3(1, 2, 3));

@@ -112,6 +112,164 @@ TEST(OptimalCentre, IsTheNearDistanceOfLightSpacePerspectiveMaps) {
     EXPECT_EQ(optimal_inverse_centre(3.0, 70.0, 0.0), 0.0);
 }
 
+TEST(LloydsEta, RunsFromUniformOverTheOptimumToStamminger) {
+    for (double const sine : {0.05, 0.5, 1.0})
+        for (double const length : {0.1, 10.0, 1e4}) {
+            double const n = 2.0, optimum = optimal_inverse_centre(n, length, sine);
+            EXPECT_EQ(lloyd_inverse_centre(-1.0, n, length, sine), 0.0);
+            EXPECT_NEAR(lloyd_inverse_centre(0.0, n, length, sine) / optimum, 1.0, 1e-12);
+            EXPECT_NEAR(lloyd_inverse_centre(1.0, n, length, sine), sine / n, 1e-12);
+            // His own two formulae, for a over the length of the body.
+            double const alpha = 1.0 + length * sine / n, root = std::sqrt(alpha);
+            for (double eta = -0.9; eta < 1.0; eta += 0.1) {
+                double const printed = eta < 0 ? (1 + root - eta * (alpha - 1)) / ((alpha - 1) * (eta + 1))
+                                               : 1 / ((root - 1) * (eta * root + 1));
+                EXPECT_NEAR(lloyd_inverse_centre(eta, n, length, sine) * printed * length, 1.0, 1e-9);
+                EXPECT_LT(lloyd_inverse_centre(eta - 0.1, n, length, sine), lloyd_inverse_centre(eta, n, length, sine));
+            }
+        }
+}
+
+TEST(LloydsEta, FallsOffContinuouslyTowardALightInThePicture) {
+    double const half_fov = 0.5;
+    EXPECT_EQ(lloyd_eta(half_fov / 3 - 1e-9, half_fov), -1.0);
+    EXPECT_NEAR(lloyd_eta(half_fov, half_fov), -0.2, 1e-12);
+    EXPECT_NEAR(lloyd_eta(1.5, half_fov), 0.0, 1e-12);
+    EXPECT_NEAR(lloyd_eta(3.1, half_fov), -1.0, 1e-12);
+    for (double angle = 0.0; angle < 3.14; angle += 1e-3)
+        EXPECT_NEAR(lloyd_eta(angle, half_fov), lloyd_eta(angle + 1e-3, half_fov), 6e-3) << angle;
+}
+
+TEST(TrapezoidCentre, PutsTheFocusAtEightyPercent) {
+    for (double const focus : {1.0, 5.0, 20.0}) {
+        double const length = 100.0, inverse = trapezoid_inverse_centre(length, focus);
+        // The projective map of [0, length] to [0, 1] with w = 1 + y / a.
+        auto const place = [&](double y) { return y / (1 + y * inverse) / (length / (1 + length * inverse)); };
+        EXPECT_NEAR(place(focus), 0.8, 1e-12);
+        // Martin and Tan: lambda d (1 + xi) / (lambda (1 - xi) - 2 d), xi = -0.6.
+        EXPECT_NEAR(1 / inverse, length * focus * 0.4 / (length * 1.6 - 2 * focus), 1e-9);
+    }
+    EXPECT_EQ(trapezoid_inverse_centre(100.0, 80.0), 0.0);
+    EXPECT_EQ(trapezoid_inverse_centre(100.0, 90.0), 0.0);
+}
+
+TEST(ExtendedCentre, IsGusevsGrowthMeasuredFromTheNearEnd) {
+    // w = 1 + g y and w' = 1 + (y - y_near) / a differ by a factor.
+    double const y_near = 3.0, g = 0.05 / 0.5, inverse = extended_inverse_centre(0.05, 0.5, y_near);
+    for (double const y : {3.0, 10.0, 200.0})
+        EXPECT_NEAR((1 + g * y) / (1 + g * y_near), 1 + (y - y_near) * inverse, 1e-12);
+    // Behind the eye, where w would pass through 0 at y = -10.
+    double const kept = extended_inverse_centre(0.05, 0.5, -50.0);
+    EXPECT_NEAR(1 / kept, 50.0 * 0.15 / 0.85, 1e-9);
+}
+
+// Wimmer's construction, step by step: light space, the centre behind the near end, a frustum, a fit.
+TEST(SimplePerspectiveMap, IsWimmersMapUpToTheFit) {
+    ViewVolume<double> const view = level_view();
+    for (V3 const& travel : {V3(0, -1, 0), V3(0, -1, -0.5), V3(0, -1, 0.5), V3(0, -0.6, -0.8)}) {
+        WarpOptions<double> options;
+        options.margin_texels = 0.0;
+        Light<double> const light = directional(travel);
+        ShadowMap<double> const map = simple_perspective_map(view, light, flat_world, flat_world, options, gl_clip);
+        V3 const v = view.pose.forward, L = light.direction, Y = -L, X = glm::normalize(glm::cross(v, Y)),
+                 Z = glm::cross(X, Y);
+        double nearest = inf, farthest = -inf, z0 = inf;
+        for_each_vertex(visible_body(view, flat_world), [&](V3 const& p) {
+            nearest = std::min(nearest, -glm::dot(Z, p));
+            farthest = std::max(farthest, -glm::dot(Z, p));
+            z0 = std::min(z0, glm::dot(v, p));
+        });
+        double const sine = glm::length(glm::cross(v, L)), d = farthest - nearest, z1 = z0 + d * sine;
+        double const n_opt = d / (std::sqrt(z1 / z0) - 1);
+        auto const wimmer = [&](V3 const& world) {
+            V3 const p = world - view.pose.position;
+            double const w = -glm::dot(Z, p) - nearest + n_opt, F = n_opt + d;
+            return V2(n_opt * glm::dot(X, p) / w, ((F + n_opt) * w - 2 * F * n_opt) / (F - n_opt) / w);
+        };
+        // One scale along x fits all points, and v' agrees as it is.
+        double scale = 0.0;
+        for (V3 const& p : {V3(1, 0, -4), V3(-3, 0, -20), V3(10, 0, -50), V3(-40, 0, -150)}) {
+            V2 const theirs = wimmer(p);
+            V3 const ours = ndc(map.clip_from_world, p);
+            EXPECT_NEAR(ours.y, theirs.y, 1e-9);
+            if (scale == 0.0) scale = ours.x / theirs.x;
+            EXPECT_NEAR(ours.x, theirs.x * scale, 1e-9);
+        }
+    }
+}
+
+TEST(SimplePerspectiveMap, AtStrengthTwoHasTexelsAsWideAsPixels) {
+    WarpOptions<double> options;
+    options.strength = 2.0;
+    ShadowMap<double> const map =
+        simple_perspective_map(level_view(), overhead, flat_world, flat_world, options, gl_clip);
+    // w is eye depth, in units of the nearest.
+    double const unit = row(map.clip_from_world, 3) == V4(0.0) ? 0.0 : (map.clip_from_world * V4(0, 0, -10, 1)).w / 10;
+    for (V3 const& p : {V3(0, 0, -4), V3(5, 0, -40), V3(-50, 0, -190)})
+        EXPECT_NEAR((map.clip_from_world * V4(p, 1.0)).w, unit * -p.z, 1e-9 * -p.z);
+    double const n = first_ground(level_view());
+    for (double z = n; z < 200; z *= 1.5)
+        EXPECT_NEAR(error_along(map, z) / closed_form::warped_along(z, n, 200.0, n), 1.0, 0.01);
+}
+
+TEST(SimplePerspectiveMap, IsStammingersWhicheverSideTheLightIsOn) {
+    // From ahead, from behind the viewer, level with the view: his depth turns around between the first two.
+    for (V3 const& travel : {V3(0.1, -0.5, 1), V3(0.1, -0.5, -1), V3(1, -0.5, 0)}) {
+        Light<double> const light = directional(travel);
+        for (double const strength : {1.5, 2.0}) {
+            ShadowMap<double> const map =
+                simple_perspective_map(level_view(), light, town, town, {1024, 2.0, strength}, gl_clip);
+            ASSERT_TRUE(map.visible);
+            EXPECT_TRUE(laws::is_map_of(map.clip_from_world, light, gl_clip));
+            for (V3 const& p : {V3(0, 0, -5), V3(3, 1, -50), V3(-20, 0, -150)}) {
+                EXPECT_TRUE(laws::serves(map, p, 0.0));
+                EXPECT_TRUE(laws::keeps_the_order(map, p - light.direction * 10.0, p));
+            }
+        }
+    }
+}
+
+TEST(SimplePerspectiveMap, IsTheSameByAnyRuleThatComesToTheSameCentre) {
+    WarpOptions<double> options;
+    ShadowMap<double> const best =
+        simple_perspective_map(level_view(), overhead, flat_world, flat_world, options, gl_clip);
+    double const n = first_ground(level_view()), length = 200.0 - n, a = closed_form::best_centre(n, 200.0);
+    WarpOptions<double> trapezoid = options, extended = options;
+    trapezoid.rule = WarpRule::trapezoid;
+    trapezoid.focus_metres = n + 0.8 / (0.2 / a + 1 / length);
+    extended.rule = WarpRule::extended;
+    extended.coefficient = 1 / (a - n);
+    for (WarpOptions<double> const& other : {trapezoid, extended}) {
+        ShadowMap<double> const map =
+            simple_perspective_map(level_view(), overhead, flat_world, flat_world, other, gl_clip);
+        for (V3 const& p : {V3(0, 0, -4), V3(5, 0, -40), V3(-50, 0, -190)})
+            EXPECT_LT(laws::moved_texels(best, map, p, 1024), 1e-6);
+    }
+}
+
+// The light sweeps over the sky, a twentieth of a degree a step, through both alignments with the view.
+TEST(SimplePerspectiveMap, MovesLittleWhenTheLightTurnsLittleAtAnyStrength) {
+    ViewVolume<double> view = level_view();
+    view.pose = pose_looking(V3(3, 30, 2), V3(0.2, -0.8, -0.6), V3(0, 1, 0));
+    double const step = 8.7e-4;
+    for (WarpRule const rule : {WarpRule::by_strength, WarpRule::trapezoid, WarpRule::extended})
+        for (double const strength : {0.5, 1.0, 2.0}) {
+            WarpOptions<double> options;
+            options.rule = rule;
+            options.strength = strength;
+            ShadowMap<double> before;
+            double worst = 0.0;
+            for (double angle = 0.3; angle < 2.8; angle += step) {
+                Light<double> const light = directional(V3(0.1, -std::sin(angle), std::cos(angle)));
+                ShadowMap<double> const map = simple_perspective_map(view, light, town, town, options, gl_clip);
+                ASSERT_TRUE(map.visible);
+                if (before.visible) worst = std::max(worst, laws::moved_texels(before, map, V3(6, 0, -12), 1024));
+                before = map;
+            }
+            EXPECT_LT(worst, 40 * step * 1024) << int(rule) << ' ' << strength;
+        }
+}
+
 TEST(SimplePerspectiveMap, HasTheLeastWorstErrorTheSameAtBothEnds) {
     for (double const z_far : {20.0, 200.0, 2000.0}) {
         ViewVolume<double> const view = level_view(z_far);
@@ -328,7 +486,7 @@ TEST(SimplePerspectiveMap, ClampsItsStrengthAndRefusesBadMaps) {
     ShadowMap<double> const clamped = simple_perspective_map(level_view(), overhead, town, town, options, gl_clip);
     EXPECT_TRUE(clamped.faults.has(Fault::clamped_option));
     EXPECT_EQ(clamped.clip_from_world,
-              simple_perspective_map(level_view(), overhead, town, town, {}, gl_clip).clip_from_world);
+              simple_perspective_map(level_view(), overhead, town, town, {1024, 2.0, 2.0}, gl_clip).clip_from_world);
     options.strength = nan_;
     EXPECT_TRUE(
         simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::not_finite));

@@ -574,6 +574,26 @@ template <class T>
     return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
 }
 
+// What tracing needs of the picture, the light and the grid, before any receiver is seen. False where the grid is not a
+// map of the light.
+template <class T>
+inline bool take_view(IrregularBuffer<T>& buffer, Light<T> const& light, ShadowMap<T> const& grid) noexcept {
+    PixelFrame<T> const& frame = buffer.frame;
+    buffer.light = pixel_light(frame, light);
+    buffer.source.kind = light.kind;
+    buffer.source.direction = Vec3<Wider<T>>(light.direction);
+    buffer.source.position = Vec3<Wider<T>>(light.position);
+    buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
+                         glm::length(frame.inward);
+    buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));
+    if (frame.kind == ViewKind::orthographic) {
+        buffer.contact_reach += buffer.contact_ray + glm::length(frame.across) * std::abs(frame.origin.x) +
+                                glm::length(frame.upward) * std::abs(frame.origin.y);
+        buffer.contact_ray = T(1);
+    }
+    return take_map(buffer, grid, light);
+}
+
 // The arrays of a buffer, cut from what the caller gave. No capacity where not even the tiles fit.
 template <class T>
 [[nodiscard]] inline Parts<T> lay_out(IrregularBuffer<T>& buffer, Storage<T> const& storage) noexcept {
@@ -646,23 +666,11 @@ template <class T, class Lanes = BestLanes<T>>
     if (!inside) buffer.faults |= Fault::bad_region;
     if (inside) buffer.rect = rect;
     if (frame.faults.any() || unusable(light) || !inside || buffer.faults.has(Fault::map_too_small)) return buffer;
-    bool const flat = frame.kind == ViewKind::orthographic;
-    buffer.light = pixel_light(frame, light);
-    buffer.source.kind = light.kind;
-    buffer.source.direction = Vec3<Wider<T>>(light.direction);
-    buffer.source.position = Vec3<Wider<T>>(light.position);
-    buffer.contact_ray = glm::length(frame.across) * T(frame.width) + glm::length(frame.upward) * T(frame.height) +
-                         glm::length(frame.inward);
-    buffer.contact_reach = T(2) * (std::abs(frame.eye.x) + std::abs(frame.eye.y) + std::abs(frame.eye.z));
-    if (flat) {
-        buffer.contact_reach += buffer.contact_ray + glm::length(frame.across) * std::abs(frame.origin.x) +
-                                glm::length(frame.upward) * std::abs(frame.origin.y);
-        buffer.contact_ray = T(1);
-    }
-    if (!detail::take_map(buffer, grid, light)) {
+    if (!detail::take_view(buffer, light, grid)) {
         buffer.faults |= Fault::bad_projection;
         return buffer;
     }
+    bool const flat = frame.kind == ViewKind::orthographic;
     buffer.tiles_across = (rect.width - 1) / tile_side + 1;
     buffer.tile_count = buffer.tiles_across * ((rect.height - 1) / tile_side + 1);
     for (int side = 0; side != 1;) side = level_size(map_size, buffer.level_count++);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+//
+// The vertex transform of the view-dependent map. Textbook: as the thesis has it, with the matrices of eye and light
+// made once. `copy` moves as many bytes and computes nothing.
+#include "bench/cases.hpp"
+
+#include <shadowmath/shadowmath.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+
+using namespace shadowmath;
+
+namespace {
+
+struct Vertices {
+    std::vector<glm::vec3> points;
+    std::vector<glm::vec4> clip;
+};
+
+Vertices& vertices(std::int64_t count) {
+    static Vertices made;
+    bench::Random random;
+    while (made.points.size() < static_cast<std::size_t>(count))
+        made.points.push_back({random.between(-100, 100), random.between(0, 20), random.between(-100, 100)});
+    made.clip.resize(made.points.size());
+    return made;
+}
+
+textbook::ThesisMap thesis_map() {
+    bench::Random random;
+    textbook::Camera const camera = bench::some_camera(random);
+    return {bench::sun, glm::vec4(0, 1, 0, 0), clip_from_world(bench::view_of(camera), gl_zero_to_one_clip),
+            textbook::stable_cascades(camera, bench::sun, 0.5f, 2048.0f)[3]};
+}
+
+// The same as one matrix.
+glm::mat4 one_matrix(textbook::ThesisMap const& map) {
+    glm::mat4 const seen = map.clip_from_world * plane_projection(ShadowPlane<float>{glm::vec3(map.plane), map.plane.w},
+                                                                  glm::vec4(map.light, 0.0f));
+    return from_rows(row(seen, 0), row(seen, 1), row(map.light_clip_from_world, 2), row(seen, 3));
+}
+
+template <class Call>
+void with_vertices(benchmark::State& state, Call const& call) {
+    Vertices& all = vertices(state.range(0));
+    for (auto _ : state) {
+        call(all);
+        benchmark::DoNotOptimize(all.clip.data());
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * state.range(0));
+    state.SetBytesProcessed(state.iterations() * state.range(0) * 28);
+}
+
+void ours(benchmark::State& state) {
+    glm::mat4 const matrix = one_matrix(thesis_map());
+    with_vertices(state, [&](Vertices& all) {
+        clip_points(matrix, all.points.data(), static_cast<int>(state.range(0)), all.clip.data());
+    });
+}
+
+void textbooks(benchmark::State& state) {
+    textbook::ThesisMap const map = thesis_map();
+    with_vertices(state, [&](Vertices& all) {
+        auto const count = static_cast<std::size_t>(state.range(0));
+        textbook::vertices(map, std::span(all.points).first(count), std::span(all.clip).first(count));
+    });
+}
+
+// 14 bytes read and 14 written a vertex: as many as 12 and 16.
+void copy(benchmark::State& state) {
+    with_vertices(state, [&](Vertices& all) {
+        std::memcpy(static_cast<void*>(all.clip.data()), all.points.data(),
+                    static_cast<std::size_t>(state.range(0)) * 12);
+    });
+}
+
+}  // namespace
+
+BENCHMARK(ours)->Name("vdsm_points/ours")->Arg(1 << 20)->Arg(1 << 23);
+BENCHMARK(textbooks)->Name("vdsm_points/textbook")->Arg(1 << 20)->Arg(1 << 23);
+BENCHMARK(copy)->Name("vdsm_points/copy")->Arg(1 << 23);

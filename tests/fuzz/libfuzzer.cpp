@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. Allocations
+// are counted by the address sanitizer's own hook: it wants operator new for itself.
+#include "tests/fuzz/case.hpp"
+
+#include <sanitizer/allocator_interface.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+std::uint64_t allocations = 0;
+void count_allocation(void const volatile*, std::size_t) {
+    ++allocations;
+}
+void ignore_deallocation(void const volatile*) {}
+[[maybe_unused]] int const installed =
+    __sanitizer_install_malloc_and_free_hooks(&count_allocation, &ignore_deallocation);
+
+}  // namespace
+
+std::uint64_t shadowmath::test::allocation_count() {
+    return allocations;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* bytes, std::size_t size) {
+    using namespace shadowmath::fuzz;
+    static Target const* const chosen = [] {
+        char const* const name = std::getenv("SHADOWMATH_TARGET");
+        for (Target const& target : targets())
+            if (name != nullptr && std::strcmp(target.name, name) == 0) return &target;
+        std::fprintf(stderr, "SHADOWMATH_TARGET must be one of:\n");
+        for (Target const& target : targets()) std::fprintf(stderr, "  %s\n", target.name);
+        std::exit(2);
+    }();
+    Case c(bytes, size, Numbers::any);
+    chosen->laws(c);
+    if (c.broken_law() == nullptr) return 0;
+    std::fprintf(stderr, "%s, a law is broken: %s\n", chosen->name, c.broken_law());
+    std::abort();
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/fit_focus.hpp"
+#include "tests/support/watched.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+using V3 = glm::dvec3;
+
+Light<double> const overhead = directional(V3(0, -1, 0));
+LightBasis<double> const axes = light_basis(V3(0, -1, 0));
+Aabb<double> const world{V3(-500, 0, -500), V3(500, 40, 500)};
+Aabb<double> const ground{V3(-500, -1, -500), V3(500, 0, 500)};
+
+ViewVolume<double> level_slice(double begin = 5.0, double end = 40.0) {
+    return perspective_view(pose_looking(V3(0, 2, 0), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.6, begin, end);
+}
+
+Aabb<double> bounds_of_body(ConvexBody<double> const& body) {
+    Aabb<double> box;
+    for_each_vertex(body, [&](V3 const& v) { box = merge(box, v); });
+    return box;
+}
+
+}  // namespace
+
+TEST(FitFocus, HoldsOnlyTheGroundThatACasterCanShadow) {
+    // A column of two by two metres, twenty metres ahead.
+    Aabb<double> const column{V3(-1, 0, -21), V3(1, 9, -19)};
+    Focus<double> const focus = focus_of(level_slice(), overhead, column, ground);
+    ASSERT_TRUE(focus.visible);
+    Aabb<double> const seen = bounds_of_body(focus.receivers);
+    EXPECT_NEAR(seen.lo.x, -1, 1e-9);
+    EXPECT_NEAR(seen.hi.x, 1, 1e-9);
+    EXPECT_NEAR(seen.lo.z, -21, 1e-9);
+    EXPECT_NEAR(seen.hi.z, -19, 1e-9);
+    EXPECT_NEAR(focus.depth.lo, -9, 1e-9);
+    EXPECT_NEAR(focus.first_receiver, 0, 1e-9);
+    LightBox<double> const box = fit_focus(axes, focus, 1024, 0.0);
+    EXPECT_NEAR(area(box), 4.0, 1e-9);
+}
+
+TEST(FitFocus, CullsWhatCastsBesideTheSlice) {
+    Focus<double> const focus = focus_of(level_slice(), directional(V3(1, -1, 0)), world, ground);
+    ASSERT_TRUE(focus.visible);
+    EXPECT_TRUE(may_meet(focus.casters, Aabb<double>{V3(-11, 10, -21), V3(-9, 12, -19)}));
+    // Behind the eye, and low beside the view where its shadow falls short.
+    EXPECT_FALSE(may_meet(focus.casters, Aabb<double>{V3(-11, 10, 3), V3(-9, 12, 5)}));
+    EXPECT_FALSE(may_meet(focus.casters, Aabb<double>{V3(-40, 0, -21), V3(-39, 2, -19)}));
+}
+
+TEST(FitFocus, IsPaddedForFilterAndSun) {
+    Aabb<double> const aside{V3(-1, 5, 3.2 - 8), V3(1, 6, 3.5 - 8)};
+    auto const culls = [&](SweepPadding<double> const& padding) {
+        return !may_meet(focus_of(level_slice(), overhead, world, ground, padding).casters, aside);
+    };
+    // Ground begins where the lower edge of the view meets it, or with the slice: at 5 m; the box ends at 4.8.
+    EXPECT_TRUE(culls({}));
+    EXPECT_TRUE(culls({0.15, 0.0}));
+    EXPECT_FALSE(culls({0.25, 0.0}));
+    EXPECT_FALSE(culls({0.0, 0.05}));
+}
+
+TEST(FitFocus, SeesNothingWhereNothingCastsAndSaysSo) {
+    Aabb<double> const below{V3(-500, -20, -500), V3(500, -10, 500)}, beside{V3(100, 0, -30), V3(120, 9, -10)};
+    for (Aabb<double> const& casters : {below, beside, Aabb<double>{}})
+        EXPECT_FALSE(focus_of(level_slice(), overhead, casters, ground).visible);
+    EXPECT_FALSE(focus_of(level_slice(), overhead, world, Aabb<double>{V3(-5, 0, 50), V3(5, 1, 60)}).visible);
+    EXPECT_FALSE(focus_of(level_slice(), spot(V3(0, 9, -20), V3(0, -1, 0), 0.5, 20.0), world, ground).visible);
+    EXPECT_FALSE(focus_of(level_slice(5.0, std::numeric_limits<double>::infinity()), overhead, world, ground).visible);
+    EXPECT_EQ(fit_focus(axes, Focus<double>{}, 1024, 0.0).lo, glm::dvec2(-1));
+}
+
+TEST(FitFocus, ServesAFlatGroundThatIsCasterAndReceiver) {
+    Aabb<double> const flat{V3(-500, 0, -500), V3(500, 0, 500)};
+    EXPECT_TRUE(focus_of(level_slice(), overhead, flat, flat).visible);
+    EXPECT_TRUE(focus_of(level_slice(), directional(V3(0.3, -0.1, 0.8)), flat, flat).visible);
+}
+
+TEST(FitFocus, MendsBoxesWithoutEnd) {
+    float const most = std::numeric_limits<float>::max();
+    Aabb<float> const endless{glm::vec3(-most), glm::vec3(most)};
+    ViewVolume<float> const view = perspective_view(
+        pose_looking(glm::vec3(5, 6, 7), glm::vec3(1, 2, 3), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 100.0f);
+    auto const focus =
+        test::watched([&] { return focus_of(view, directional(glm::vec3(1, -2, 1)), endless, endless); });
+    EXPECT_TRUE(focus.calm());
+    ASSERT_TRUE(focus.result.visible);
+    for (glm::vec3 const& corner : corners(view)) EXPECT_TRUE(laws::may_contain(focus.result.receivers, corner, 1e-3f));
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/judge.hpp"
+
+#include <shadowmath/aliasing.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace shadowmath;
+
+namespace {
+
+using V2 = glm::dvec2;
+using V3 = glm::dvec3;
+
+V2 const pixels(1000, 1000);
+Aabb<double> const everything{V3(-1e4), V3(1e4)};
+Light<double> const overhead = directional(V3(0, -1, 0));
+
+// Narrow enough for the error along the view to exceed the one across it.
+ViewVolume<double> narrow_view(double z_near, double z_far) {
+    ViewVolume<double> view =
+        perspective_view(pose_looking(V3(3, 2, 1), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.0, z_near, z_far);
+    view.right = view.top = 0.2;
+    view.left = view.bottom = -0.2;
+    return view;
+}
+
+// On the view axis, where the closed forms hold, with neutral normals.
+Samples<double> on_the_axis(ViewVolume<double> const& view) {
+    Samples<double> samples;
+    samples.count = max_samples;
+    for (int i = 0; i < max_samples; ++i) {
+        double const depth = view.z_near * std::pow(view.z_far / view.z_near, (i + 0.5) / max_samples);
+        V3 const point = point_at(view, 0.0, 0.0, depth);
+        samples.at[static_cast<std::size_t>(i)] = {point, neutral_normal(view, overhead, point)};
+    }
+    return samples;
+}
+
+double worst_measured(ViewVolume<double> const& view, CascadeOptions<double> const& options) {
+    Samples<double> const samples = on_the_axis(view);
+    auto const cascades = fit_cascades(view, overhead, everything, everything, options);
+    auto const judgement = judge(cascades, options.map_size, view, pixels, samples.at.data(), samples.count);
+    EXPECT_TRUE(laws::adds_up(judgement));
+    EXPECT_EQ(judgement.all.unserved, 0);
+    return judgement.all.worst / closed_form::pixels_per_texel(pixels.y, view.top, double(options.map_size));
+}
+
+CascadeOptions<double> plain(int count) {
+    CascadeOptions<double> options;
+    options.fit = CascadeFit::tight;
+    options.count = count;
+    options.map_size = 4096;
+    options.lambda = 1.0;
+    options.blend = 0.0;
+    options.filter_radius = 0;
+    return options;
+}
+
+}  // namespace
+
+TEST(Judge, MeasuresTheClosedFormsToAHundredth) {
+    for (double const ratio : {3.0, 30.0, 1000.0}) {
+        ViewVolume<double> const view = narrow_view(1.0, ratio);
+        // The first and last samples stand half a step inside the range.
+        double const step = std::pow(ratio, 0.5 / max_samples);
+        double const uniform = std::max(closed_form::uniform_along(step, 1.0, ratio), 0.4 * ratio / step);
+        EXPECT_NEAR(worst_measured(view, plain(1)) / uniform, 1.0, 0.01) << ratio;
+        for (int const count : {2, 4}) {
+            // The view is 0.4 m wide for a metre of depth: across it decides where the splits are short.
+            double const across = 0.4 * std::pow(ratio, 1.0 / count);
+            double const split = std::max(closed_form::split_uniform_worst(1.0, ratio, count), across);
+            EXPECT_NEAR(worst_measured(view, plain(count)) / split, 1.0, 0.01 + std::log(ratio) / max_samples) << ratio;
+        }
+        CascadeOptions<double> warped = plain(1);
+        warped.fit = CascadeFit::warped;
+        double const best = closed_form::warped_worst(1.0, ratio, closed_form::best_centre(1.0, ratio));
+        double const across = closed_form::warped_across(step, 1.0, ratio, closed_form::best_centre(1.0, ratio)) * 0.4;
+        EXPECT_NEAR(worst_measured(view, warped) / std::max(best, across), 1.0, 0.01 + std::log(ratio) / max_samples)
+            << ratio;
+    }
+}
+
+TEST(Judge, TellsTheMapsApart) {
+    ViewVolume<double> const view = narrow_view(1.0, 100.0);
+    CascadeOptions<double> options = plain(4);
+    Samples<double> const samples = on_the_axis(view);
+    auto const cascades = fit_cascades(view, overhead, everything, everything, options);
+    auto const judgement = judge(cascades, 4096, view, pixels, samples.at.data(), samples.count);
+    // Logarithmic splits: as many samples, as bad a worst, in each.
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(judgement.map[i].count, max_samples / 4);
+        EXPECT_NEAR(judgement.map[i].worst / judgement.all.worst, 1.0, 0.02);
+    }
+    EXPECT_EQ(judgement.map[4].count, 0);
+}
+
+TEST(Judge, CountsWhatNoMapHolds) {
+    ViewVolume<double> const view = narrow_view(1.0, 100.0);
+    Samples<double> const samples = on_the_axis(view);
+    Cascades<double> cascades = fit_cascades(view, overhead, everything, everything, plain(2));
+    cascades.at[1].map = {};
+    auto const judgement = judge(cascades, 4096, view, pixels, samples.at.data(), samples.count);
+    EXPECT_EQ(judgement.all.unserved, max_samples / 2);
+    EXPECT_EQ(judgement.all.worst, footprint_limit<double>);
+    EXPECT_TRUE(laws::adds_up(judgement));
+}
+
+TEST(SamplesIn, AreInTheBoxAndInView) {
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0, 2, 0), V3(0, -0.2, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 200.0);
+    Aabb<double> const town{V3(-80, 0, -150), V3(80, 12, 30)}, ground{V3(-500, 0, -500), V3(500, 0, 500)};
+    auto const in_town = samples_in(view, overhead, town), on_ground = samples_in(view, overhead, ground);
+    EXPECT_GT(in_town.count, 100);
+    EXPECT_GT(on_ground.count, 30);
+    EXPECT_LE(on_ground.count, 64);
+    for (auto const* samples : {&in_town, &on_ground})
+        for (int i = 0; i < samples->count; ++i) {
+            auto const& sample = samples->at[static_cast<std::size_t>(i)];
+            Aabb<double> const& box = samples == &in_town ? town : ground;
+            EXPECT_TRUE(contains(Aabb<double>{box.lo - 1e-9, box.hi + 1e-9}, sample.point));
+            double const depth = eye_depth(view, sample.point);
+            EXPECT_TRUE(depth > view.z_near && depth < view.z_far);
+            EXPECT_NEAR(glm::length(sample.normal), 1.0, 1e-12);
+            V3 const to_eye = glm::normalize(view.pose.position - sample.point);
+            EXPECT_NEAR(glm::dot(sample.normal, to_eye), glm::dot(sample.normal, V3(0, 1, 0)), 1e-12);
+        }
+    EXPECT_EQ(samples_in(view, overhead, Aabb<double>{}).count, 0);
+    EXPECT_EQ(samples_in(view, overhead, Aabb<double>{V3(0, 0, 20), V3(1, 1, 30)}).count, 0);
+}
+
+TEST(NeutralNormal, FacesTheEyeWhereTheLightComesFromBehindThePoint) {
+    ViewVolume<double> const view = narrow_view(1.0, 100.0);
+    V3 const point = point_at(view, 0.0, 0.0, 10.0);
+    EXPECT_EQ(neutral_normal(view, directional(V3(0, 0, 1)), point), V3(0, 0, 1));
+}

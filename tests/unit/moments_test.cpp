@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/moments.hpp"
+
+#include <shadowmath/msm.hpp>
+#include <shadowmath/vsm.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A lit floor at 0.8 behind an occluder at 0.3 that covers `share` of the kernel.
+laws::Kernel edge(double share) {
+    return {{0.3, 0.8}, {share, 1 - share}};
+}
+
+}  // namespace
+
+TEST(Moments, LessBleedingTakesFaintLightAway) {
+    EXPECT_EQ(less_bleeding(0.2, 0.25), 0.0);
+    EXPECT_DOUBLE_EQ(less_bleeding(0.625, 0.25), 0.5);
+    EXPECT_EQ(less_bleeding(1.0, 0.25), 1.0);
+    EXPECT_EQ(less_bleeding(0.4, 0.0), 0.4);
+    EXPECT_EQ(less_bleeding(not_a_number, 0.1), 1.0);
+    EXPECT_EQ(less_bleeding(0.5, 7.0), 0.0);
+}
+
+TEST(Moments, OfReceiversBeforeEverythingAreLit) {
+    Vec4<double> const msm = edge(0.5).mean<double>(msm_moments<double>);
+    Vec2<double> const vsm = edge(0.5).mean<double>(vsm_moments<double>);
+    EXPECT_EQ(vsm_visibility(vsm, 0.3, 0.0), 1.0);
+    EXPECT_NEAR(msm_visibility(msm, 0.2999, 1e-12), 1.0, 1e-9);
+    EXPECT_EQ(msm_visibility(msm, -5.0, 1e-6), msm_visibility(msm, 0.0, 1e-6)) << "as depth clamp stores it";
+}
+
+TEST(Moments, OfBadNumbersAreLit) {
+    EvsmExponents<double> const exponents;
+    for (double bad : {not_a_number, infinity, -infinity}) {
+        EXPECT_EQ(vsm_visibility(Vec2<double>(bad, 0.5), 0.5, 0.0), 1.0);
+        EXPECT_EQ(vsm_visibility(Vec2<double>(0.2, 0.05), bad, 0.0), 1.0);
+        EXPECT_EQ(evsm_visibility(Vec4<double>(bad), 0.5, exponents, 0.0), 1.0);
+        EXPECT_EQ(msm_visibility(Vec4<double>(0, 0.3, 0, bad), 0.5, 1e-6), 1.0);
+        EXPECT_EQ(msm_visibility(Vec4<double>(0, 0.3, 0, 0.3), bad, 1e-6), 1.0);
+        EXPECT_EQ(vsm_moments(bad), Vec2<double>(1.0));
+        EXPECT_EQ(msm_moments(bad), Vec4<double>(1.0));
+    }
+}
+
+TEST(Moments, MeanIsThatOfTheBoxAndOutsideIsWhatIsAskedFor) {
+    auto const columns = [](int x, int y) {
+        EXPECT_TRUE(x >= 0 && y >= 0 && x < 16 && y < 16);
+        return Vec2<double>(x < 8 ? 0.25 : 1.0);
+    };
+    auto const at = [&](double x, double y) {
+        return mean_moments(Vec2<double>(x, y), 16, 1, Vec2<double>(2.0), columns).x;
+    };
+    EXPECT_DOUBLE_EQ(at(8.0, 8.0), 0.625);
+    EXPECT_DOUBLE_EQ(at(7.5, 8.0), 0.4375);
+    EXPECT_DOUBLE_EQ(at(4.0, 8.0), 0.25);
+    EXPECT_DOUBLE_EQ(at(4.0, 0.0), 0.25 * 0.5 + 2.0 * 0.5);
+    EXPECT_EQ(at(1e30, 0.0), 2.0);
+    EXPECT_EQ(at(not_a_number, 0.0), 2.0);
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/moments.hpp"
+
+#include <shadowmath/msm.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+// A lit floor at 0.8 behind an occluder at 0.3 that covers `share` of the kernel.
+laws::Kernel edge(double share) {
+    return {{0.3, 0.8}, {share, 1 - share}};
+}
+
+}  // namespace
+
+TEST(Msm, IsExactForAnEdgeWhateverTheReceiver) {
+    for (double share : {0.1, 0.5, 0.9}) {
+        Vec4<double> const moments = edge(share).mean<double>(msm_moments<double>);
+        EXPECT_NEAR(msm_visibility(moments, 0.1, 1e-10), 1.0, 1e-6);
+        EXPECT_NEAR(msm_visibility(moments, 0.6, 1e-10), 1 - share, 1e-6);
+        EXPECT_NEAR(msm_visibility(moments, 0.95, 1e-10), 0.0, 1e-6);
+    }
+}
+
+TEST(Msm, OfTheBiasAloneIsItsDistribution) {
+    // Masses 3/16, 5/8, 3/16 at z = -1, 0, 1: halfway between the atoms the bound is on the safe side of both steps.
+    Vec4<double> const moments(0, 0.375, 0, 0.375);
+    EXPECT_GE(msm_visibility(moments, 0.25, 0.0), 13.0 / 16);
+    EXPECT_GE(msm_visibility(moments, 0.75, 0.0), 3.0 / 16);
+    EXPECT_NEAR(msm_visibility(moments, 0.5, 0.0), 13.0 / 16, 1e-9);
+}
+
+TEST(Msm, PacksEachMomentIntoItsWholeRange) {
+    Vec4<double> lo(1.0), hi(0.0);
+    for (int i = 0; i <= 1000; ++i) {
+        Vec4<double> const packed = msm_packed(msm_moments(i / 1000.0));
+        lo = glm::min(lo, packed);
+        hi = glm::max(hi, packed);
+    }
+    for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(lo[k], 0.0, 1e-4);
+        EXPECT_NEAR(hi[k], 1.0, 1e-4);
+    }
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/sweep.hpp"
+
+#include <shadowmath/light.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+using V3 = glm::dvec3;
+using V4 = glm::dvec4;
+
+Aabb<double> const unit_box{V3(0.0), V3(1.0)};
+V4 const down(0, -1, 0, 0);
+
+}  // namespace
+
+TEST(Sweep, OfABoxUnderAnOverheadSunIsItsFootprintAndItsFloor) {
+    auto const swept = swept_to_light(convex_body(unit_box), down);
+    EXPECT_EQ(swept.count, 5);
+    EXPECT_TRUE(laws::inside(swept, V3(0.5, 1000, 0.5), 0.0));
+    EXPECT_FALSE(laws::inside(swept, V3(0.5, -0.01, 0.5), 0.0));
+    EXPECT_FALSE(laws::inside(swept, V3(1.01, 5, 0.5), 0.0));
+}
+
+TEST(Sweep, OfACubeUnderADiagonalSunHasAHexagonalOutline) {
+    V3 const travel = glm::normalize(V3(-1, -1, -1));
+    auto const swept = swept_to_light(convex_body(unit_box), V4(travel, 0));
+    EXPECT_EQ(swept.count, 9);
+    int along = 0;
+    for (V4 const& plane : swept) along += std::abs(glm::dot(V3(plane), travel)) < 1e-15;
+    EXPECT_EQ(along, 6);
+}
+
+TEST(Sweep, UnderASpotNarrowsTowardIt) {
+    Light<double> const lamp = spot(V3(0.5, 3, 0.5), V3(0, -1, 0), 1.0, 10.0);
+    auto const swept = swept_to_light(convex_body(unit_box), homogeneous(lamp));
+    EXPECT_TRUE(laws::inside(swept, lamp.position, 1e-12));
+    // Half way up from the top face at 1 to the lamp at 3, half of the width is left.
+    EXPECT_TRUE(laws::inside(swept, V3(0.74, 2, 0.5), 0.0));
+    EXPECT_FALSE(laws::inside(swept, V3(0.76, 2, 0.5), 0.0));
+    EXPECT_FALSE(laws::inside(swept, V3(0.5, 3.01, 0.5), 0.0));
+}
+
+TEST(Sweep, OfABodyAroundTheSpotIsTheBody) {
+    auto const swept = swept_to_light(convex_body(unit_box), V4(-0.5, -0.5, -0.5, -1));
+    EXPECT_EQ(swept.count, 6);
+}
+
+TEST(Sweep, OfAFlatBodyKeepsItsOutline) {
+    Aabb<double> const ground{V3(0, 0, 0), V3(4, 0, 4)};
+    auto const swept = swept_to_light(convex_body(ground), down);
+    EXPECT_TRUE(laws::inside(swept, V3(2, 9, 2), 0.0));
+    EXPECT_FALSE(laws::inside(swept, V3(4.1, 9, 2), 0.0));
+    EXPECT_FALSE(laws::inside(swept, V3(2, -0.1, 2), 0.0));
+}
+
+TEST(Sweep, IsPaddedInMetresAndByTheSunsRadius) {
+    auto const padded = swept_to_light(convex_body(unit_box), down, SweepPadding<double>{0.25, 0.0});
+    EXPECT_TRUE(laws::inside(padded, V3(1.249, 9, 0.5), 0.0));
+    EXPECT_FALSE(laws::inside(padded, V3(1.251, 9, 0.5), 0.0));
+    // A caster ten metres up may stand ten times the slope aside and still cover part of the sun.
+    auto const soft = swept_to_light(convex_body(unit_box), down, SweepPadding<double>{0.0, 0.01});
+    EXPECT_TRUE(laws::inside(soft, V3(1.099, 10, 0.5), 0.0));
+    EXPECT_FALSE(laws::inside(soft, V3(1.111, 10, 0.5), 0.0));
+    EXPECT_TRUE(laws::inside(soft, V3(0.5, 0.001, 0.5), 0.0));
+}
+
+TEST(Sweep, CullsBoxesThatCastElsewhereAndNoOthers) {
+    auto const swept = swept_to_light(convex_body(unit_box), down);
+    EXPECT_TRUE(may_meet(swept, Aabb<double>{V3(0.9, 50, 0.9), V3(3, 51, 3)}));
+    EXPECT_FALSE(may_meet(swept, Aabb<double>{V3(1.1, 50, 0.9), V3(3, 51, 3)}));
+    EXPECT_FALSE(may_meet(swept, Aabb<double>{V3(0, -2, 0), V3(1, -1, 1)}));
+    EXPECT_FALSE(may_meet(swept, Aabb<double>{}));
+    double const most = std::numeric_limits<double>::max();
+    EXPECT_TRUE(may_meet(swept, Aabb<double>{V3(-most), V3(most)}));
+}
+
+TEST(Sweep, OfNothingHoldsNothing) {
+    auto const swept = swept_to_light(ConvexBody<double>{}, down);
+    EXPECT_FALSE(swept.visible);
+    EXPECT_FALSE(may_meet(swept, unit_box));
+    EXPECT_EQ(clipped(convex_body(unit_box), swept).edge_count, 0);
+}
