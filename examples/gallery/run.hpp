@@ -4,6 +4,7 @@
 #pragma once
 
 #include "examples/gallery/claims.hpp"
+#include "examples/gallery/close_ups.hpp"
 #include "examples/gallery/record.hpp"
 #include "examples/gallery/settings.hpp"
 #include "examples/gallery/techniques.hpp"
@@ -21,6 +22,7 @@ using Backends = std::span<std::unique_ptr<backend::Backend> const>;
 struct Results {
     std::vector<Record> records;
     std::vector<Claim> claims;
+    std::vector<CloseUp> close_ups;
 };
 
 // Called with one line for whoever waits, without its end; may throw to stop the work.
