@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/close_up_scenes.hpp"
 
+#include "oracle/ray_oracle.hpp"
 #include "scenes/mesh_builder.hpp"
+#include "scenes/plants.hpp"
 #include "scenes/scenes.hpp"
 #include "scenes/sun.hpp"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +20,7 @@ using scenes::MeshBuilder;
 using scenes::sun_travel;
 using scenes::view_toward;
 
-constexpr double shadow_distance = 60.0;  // metres
+constexpr double shadow_distance = 150.0;  // metres
 constexpr int light_rays = 64;
 constexpr int post_rays = 256;
 
@@ -51,6 +55,33 @@ void add_car(MeshBuilder& mesh) {
     mesh.end_object();
 }
 
+// The ground below a place, as its triangles have it.
+class Ground {
+public:
+    explicit Ground(backend::Scene const& scene) : oracle_(scene), high_(double(scene.hi.y) + 1.0) {}
+
+    [[nodiscard]] glm::dvec3 at(double x, double z, double lift = 0.0) const {
+        auto const hit = oracle_.first_hit({x, high_, z}, {0.0, -1.0, 0.0});
+        return {x, (hit ? high_ - hit->distance : 0.0) + lift, z};
+    }
+
+    // With its y axis across the ground under four wheels.
+    [[nodiscard]] scenes::Frame under(double x, double z, double half_length, double half_width) const {
+        glm::dvec3 const along = at(x + half_length, z) - at(x - half_length, z);
+        glm::dvec3 const aside = at(x, z + half_width) - at(x, z - half_width);
+        scenes::Frame frame;
+        frame.origin = 0.5 * (at(x + half_length, z) + at(x - half_length, z));
+        frame.x = glm::normalize(along);
+        frame.y = glm::normalize(glm::cross(aside, along));
+        frame.z = glm::cross(frame.x, frame.y);
+        return frame;
+    }
+
+private:
+    oracle::RayOracle oracle_;
+    double high_;
+};
+
 void append(backend::Scene& scene, backend::Scene const& more) {
     auto const first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
     auto const first_index = static_cast<std::uint32_t>(scene.indices.size());
@@ -67,24 +98,38 @@ void append(backend::Scene& scene, backend::Scene const& more) {
 CloseUpScene railing(Settings const& settings) {
     auto named = scenes::make_scene("colonnade", scenes::SceneSize::medium, settings.seed);
     return {"railing", "A railing of 16 mm bars", std::move(named.scene),
-            view_toward("railing", {9.0, 1.5, 14.2}, {10.6, 0.35, 17.6}, 46.0, shadow_distance, sun_travel(33.0, 60.0)),
+            view_toward("railing", {9.9, 1.4, -18.5}, {11.7, 0.1, -16.9}, 46.0, shadow_distance,
+                        sun_travel(42.0, 70.0)),
             light_rays};
 }
 
 CloseUpScene leaves(Settings const& settings) {
     auto named = scenes::make_scene("forest", scenes::SceneSize::medium, settings.seed);
-    return {"leaves", "Leaves over the forest floor", std::move(named.scene),
-            view_toward("leaves", {-1.0, 2.2, 11.0}, {-3.0, 0.2, 7.5}, 46.0, shadow_distance, sun_travel(48.0, 200.0)),
+    Ground const ground(named.scene);
+    MeshBuilder mesh;
+    scenes::Random random(settings.seed);
+    for (glm::dvec2 const place : {glm::dvec2(-1.9, 9.5), glm::dvec2(-2.7, 9.1)}) {
+        mesh.frame = scenes::standing_at(ground.at(place.x, place.y));
+        scenes::add_fern(mesh, random, 0.6, 13);
+        mesh.end_object();
+    }
+    append(named.scene, mesh.finish("ferns"));
+    return {"leaves", "Leaves of a fern", std::move(named.scene),
+            view_toward("leaves", ground.at(-0.9, 10.9, 1.15), ground.at(-2.3, 9.2, 0.1), 46.0, shadow_distance,
+                        sun_travel(48.0, 200.0)),
             light_rays};
 }
 
 CloseUpScene car(Settings const& settings) {
     auto named = scenes::make_scene("town", scenes::SceneSize::medium, settings.seed);
+    Ground const ground(named.scene);
     MeshBuilder mesh;
+    mesh.frame = ground.under(0.3, 0.0, 1.25, 0.72);
     add_car(mesh);
     append(named.scene, mesh.finish("car"));
     return {"car", "Where a car stands", std::move(named.scene),
-            view_toward("car", {2.4, 1.3, 3.4}, {0.5, 0.35, 0.4}, 46.0, shadow_distance, sun_travel(38.0, 70.0)),
+            view_toward("car", ground.at(2.6, 3.0, 0.9), ground.at(0.7, 0.3, 0.3), 46.0, shadow_distance,
+                        sun_travel(42.0, -115.0)),
             light_rays};
 }
 
@@ -98,7 +143,7 @@ CloseUpScene post(Settings const&) {
     mesh.box({-0.2, 0.0, -0.2}, {0.2, 3.0, 0.2});
     mesh.end_object();
     return {"post", "The penumbra of a post", mesh.finish("post"),
-            view_toward("post", {4.6, 2.9, 3.6}, {1.6, 0.35, -0.3}, 46.0, shadow_distance, sun_travel(45.0, 155.0)),
+            view_toward("post", {2.7, 1.9, 1.9}, {1.25, 0.2, -0.45}, 50.0, shadow_distance, sun_travel(45.0, 155.0)),
             post_rays};
 }
 

@@ -191,6 +191,7 @@
     byId("zoom").showModal();
   }
 
+//@SECTIONS@
   function claimList() {
     if (!claims.length) byId("claims").hidden = true;
     for (const claim of claims)
@@ -258,6 +259,7 @@
   navigation();
   for (const scene of scenes) shows.set(scene.name, new Show(scene));
   summary();
+  closeUps();
   claimList();
   recordTable();
   method();
