@@ -66,7 +66,7 @@ void over_held(CloseUpPicture const& picture, std::vector<Lookup> const& maps, A
     }
 }
 
-// An angle for each pixel that its neighbours do not have: bands become fine noise (Jimenez 2014, interleaved gradient).
+// An angle for each pixel that its neighbours do not have: bands become fine noise. Source: Jimenez, SIGGRAPH 2014.
 Vec2<float> turn_of(std::size_t pixel, int width) {
     float const x = float(pixel % std::size_t(width)), y = float(pixel / std::size_t(width));
     float const share = 52.9829189f * std::fmod(0.06711056f * x + 0.00583715f * y, 1.0f);

@@ -28,8 +28,14 @@ constexpr int post_rays = 256;
 void add_car(MeshBuilder& mesh) {
     scenes::Frame const car = mesh.frame;
     auto const slab = [&](double x0, double x1, double x2, double x3, double y0, double y1, double low, double high) {
-        mesh.hexahedron({{{x0, y0, -low}, {x1, y0, -low}, {x2, y1, -high}, {x3, y1, -high},
-                          {x0, y0, low}, {x1, y0, low}, {x2, y1, high}, {x3, y1, high}}});
+        mesh.hexahedron({{{x0, y0, -low},
+                          {x1, y0, -low},
+                          {x2, y1, -high},
+                          {x3, y1, -high},
+                          {x0, y0, low},
+                          {x1, y0, low},
+                          {x2, y1, high},
+                          {x3, y1, high}}});
     };
     mesh.colour = scenes::srgb(0xA8322A);
     slab(-1.95, 1.95, -2.0, 2.0, 0.24, 0.50, 0.76, 0.82);
@@ -39,8 +45,7 @@ void add_car(MeshBuilder& mesh) {
     mesh.colour = scenes::srgb(0xA8322A);
     slab(-1.37, 0.37, -1.30, 0.30, 1.38, 1.43, 0.61, 0.58);
     mesh.colour = scenes::srgb(0xB9BEC2);
-    for (double const end : {-1.0, 1.0})
-        mesh.box({end * 2.0 - 0.06, 0.28, -0.78}, {end * 2.0 + 0.06, 0.42, 0.78});
+    for (double const end : {-1.0, 1.0}) mesh.box({end * 2.0 - 0.06, 0.28, -0.78}, {end * 2.0 + 0.06, 0.42, 0.78});
     for (double const x : {-1.25, 1.25})
         for (double const z : {-0.72, 0.72}) {
             scenes::Frame const hub = car.moved({x, 0.31, z});
@@ -97,10 +102,10 @@ void append(backend::Scene& scene, backend::Scene const& more) {
 
 CloseUpScene railing(Settings const& settings) {
     auto named = scenes::make_scene("colonnade", scenes::SceneSize::medium, settings.seed);
-    return {"railing", "A railing of 16 mm bars", std::move(named.scene),
-            view_toward("railing", {9.9, 1.4, -18.5}, {11.7, 0.1, -16.9}, 46.0, shadow_distance,
-                        sun_travel(42.0, 70.0)),
-            light_rays};
+    return {
+        "railing", "A railing of 16 mm bars", std::move(named.scene),
+        view_toward("railing", {9.9, 1.4, -18.5}, {11.7, 0.1, -16.9}, 46.0, shadow_distance, sun_travel(42.0, 70.0)),
+        light_rays};
 }
 
 CloseUpScene leaves(Settings const& settings) {
@@ -153,10 +158,8 @@ struct Entry {
     CloseUpScene (*make)(Settings const&);
 };
 
-constexpr std::array<Entry, 4> entries{{{"colonnade", false, railing},
-                                        {"forest", false, leaves},
-                                        {"town", false, car},
-                                        {nullptr, true, post}}};
+constexpr std::array<Entry, 4> entries{
+    {{"colonnade", false, railing}, {"forest", false, leaves}, {"town", false, car}, {nullptr, true, post}}};
 
 }  // namespace
 

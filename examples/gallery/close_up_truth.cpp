@@ -99,9 +99,8 @@ bool clear_of_edges(CloseUpTruth const& truth, CloseUpPicture const& picture, st
 
 }  // namespace
 
-CloseUpTruth close_up_truth(CloseUpPicture const& picture, backend::Scene const& scene,
-                            oracle::RayOracle const& oracle, ExactShadows const& margins, double sun_radius,
-                            int rays) {
+CloseUpTruth close_up_truth(CloseUpPicture const& picture, backend::Scene const& scene, oracle::RayOracle const& oracle,
+                            ExactShadows const& margins, double sun_radius, int rays) {
     CloseUpTruth truth;
     truth.dark.assign(picture.size(), 0);
     truth.soft.assign(picture.size(), 1.0f);

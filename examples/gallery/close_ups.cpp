@@ -41,10 +41,12 @@ void judge(Answer& answer, CloseUpTruth const& truth, CloseUp const& show) {
     for (std::size_t i = 0; i < truth.asked.size(); ++i) {
         if (truth.asked[i] == 0) continue;
         if (truth.off_edge[i] != 0 && (answer.visibility[i] >= 0.5f) != (truth.dark[i] == 0)) ++t.wrong_off_edge;
+        t.error_hard += std::abs(double(answer.visibility[i]) - double(truth.lit[i]));
         double const error = std::abs(double(answer.visibility[i]) - double(truth.soft[i]));
         t.error += error;
         if (truth.soft[i] > 0.0f && truth.soft[i] < 1.0f) t.error_in_penumbra += error;
     }
+    t.error_hard /= double(std::max(show.asked_pixels, 1l));
     t.error /= double(std::max(show.asked_pixels, 1l));
     t.error_in_penumbra /= double(std::max(show.penumbra_pixels, 1l));
 }
@@ -109,8 +111,9 @@ CloseUp show_one(CloseUpScene const& close_up, backend::Backend& backend, backen
     for (Grid const& grid : grids_for(picture, close_up.scene)) {
         exact.push_back(exact_shadows(picture, close_up.scene, grid));
         ExactShadows const& made = exact.back();
-        CloseUpGrid record{grid.name,   grid.title,     made.mean_list, made.nodes_per_pixel, long(made.longest_list),
-                           made.ms_list, made.ms_trace, 0,              made.note};
+        CloseUpGrid record{
+            grid.name,     grid.title, made.mean_list, made.nodes_per_pixel, long(made.longest_list), made.ms_list,
+            made.ms_trace, 0,          made.note};
         for (std::size_t i = 0; i < made.dark.size(); ++i)
             record.unlike_masks += made.dark[i] != exact.front().dark[i] ? 1 : 0;
         show.grids.push_back(std::move(record));
@@ -135,9 +138,9 @@ CloseUp show_one(CloseUpScene const& close_up, backend::Backend& backend, backen
         if (technique.id == "exact")
             technique.wrong_samples_ppm = wrong_samples_ppm(exact.front().dark, truth, show.asked_pixels);
         write_png(images / (technique.id + "-picture.png"), shaded(picture, answer.visibility));
-        write_png(images / (technique.id + "-difference.png"),
-                  visibility_difference(picture, technique.truth == "hard" ? truth.lit : truth.soft,
-                                        answer.visibility));
+        write_png(
+            images / (technique.id + "-difference.png"),
+            visibility_difference(picture, technique.truth == "hard" ? truth.lit : truth.soft, answer.visibility));
         show.techniques.push_back(std::move(technique));
     }
     return show;

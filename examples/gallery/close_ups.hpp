@@ -20,6 +20,7 @@ struct CloseUpTechnique {
     std::string truth;               // "hard" or "soft": what its difference picture is against
     long wrong_off_edge = 0;         // pixels on the wrong side of one half, of off_edge_pixels, against the hard truth
     double wrong_samples_ppm = 0.0;  // of the 32 a pixel, millionths; the exact technique's alone
+    double error_hard = 0.0;         // mean of |visibility - share of the samples that are lit|, over asked_pixels
     double error = 0.0;              // mean of |visibility - truth| against the area light, over asked_pixels
     double error_in_penumbra = 0.0;  // over those that see a part of the light
     double ms = 0.0;                 // on one thread of the CPU; its maps come on top

@@ -48,6 +48,7 @@ Json to_json(CloseUpTechnique const& t) {
             {"truth", t.truth},
             {"wrong_off_edge", t.wrong_off_edge},
             {"wrong_samples_ppm", t.wrong_samples_ppm},
+            {"error_hard", t.error_hard},
             {"error", t.error},
             {"error_in_penumbra", t.error_in_penumbra},
             {"ms", t.ms},

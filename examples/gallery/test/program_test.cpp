@@ -158,8 +158,11 @@ TEST_F(Gallery, LooksCloserAtAPost) {
     ASSERT_EQ(techniques.size(), 4u);
     EXPECT_EQ(techniques["exact"].at("wrong_off_edge"), 0);
     EXPECT_LE(techniques["exact"].at("wrong_samples_ppm").get<double>(), 15.0);
+    EXPECT_LT(techniques["exact"].at("error_hard").get<double>(), 15e-6);
+    EXPECT_GT(techniques["pcf"].at("error_hard").get<double>(), 1e-4) << "texels of a map must show";
     for (char const* soft : {"pcss", "hfts"})
-        EXPECT_LT(techniques[soft].at("error").get<double>(), 0.5 * techniques["pcf"].at("error").get<double>()) << soft;
+        EXPECT_LT(techniques[soft].at("error").get<double>(), 0.5 * techniques["pcf"].at("error").get<double>())
+            << soft;
     for (auto const& grid : post.at("grids")) {
         EXPECT_EQ(grid.at("unlike_masks"), 0) << grid.dump();
         EXPECT_EQ(grid.at("note"), "") << grid.dump();
@@ -173,8 +176,8 @@ TEST_F(Gallery, PageShowsEveryPictureAndSeesOneThatIsMissing) {
     std::string const good = verdict();
     EXPECT_EQ(good.substr(0, 3), "ok:") << good;
     fs::path const images = place_ / "made" / "images", scene = images / "cube";
-    for (fs::path const& picture : {fs::directory_iterator(scene)->path() / "truth.png",
-                                    images / "close-ups" / "post" / "pcss-picture.png"}) {
+    for (fs::path const& picture :
+         {fs::directory_iterator(scene)->path() / "truth.png", images / "close-ups" / "post" / "pcss-picture.png"}) {
         ASSERT_TRUE(fs::exists(picture)) << picture;
         fs::rename(picture, place_ / "hidden.png");
         std::string const bad = verdict();

@@ -56,11 +56,12 @@ class CloseUp {
   }
 
   figures() {
+    const small = x => x > 0 && x < 5e-5 ? "<0.0001" : x.toFixed(4);
     const wrong = t => `${t.wrong_off_edge.toLocaleString("en")} (${percent(t.wrong_off_edge / Math.max(this.shot.off_edge_pixels, 1))})`;
-    return this.table(["Technique", "Mis-shadowed, off edge", "Wrong samples", "Mean error, soft", "In the penumbra", "ms", "Bytes a pixel"],
+    return this.table(["Technique", "Mis-shadowed, off edge", "Wrong samples", "Mean error, hard", "Mean error, soft", "In the penumbra", "ms", "Bytes a pixel"],
       this.shot.techniques.map(t => [t.title, t.truth === "hard" ? wrong(t) : "–",
         t.id === "exact" ? `${t.wrong_samples_ppm.toFixed(1)} ppm` : "–",
-        t.error.toFixed(4), t.error_in_penumbra.toFixed(4), number(t.ms), number(t.bytes_per_pixel)]));
+        t.truth === "hard" ? small(t.error_hard) : "–", t.error.toFixed(4), t.error_in_penumbra.toFixed(4), number(t.ms), number(t.bytes_per_pixel)]));
   }
 
   lists() {
