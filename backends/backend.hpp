@@ -13,11 +13,14 @@
 
 #include "backends/image.hpp"
 #include "backends/scene.hpp"
+#include "backends/shaders/shader.hpp"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -57,6 +60,8 @@ struct DepthPass {
     std::span<DepthLayer const> layers;  // 1 to max_maps
     bool depth_clamp = true;             // pancake casters outside [0, 1] in depth instead of clipping them
     DrawWay way = DrawWay::pass_per_map;
+    bool fitted =
+        false;  // the matrices are those of the last fit, which the CPU does not know; the layers' are not read
 };
 
 enum class MapChoice : std::int32_t {
@@ -64,11 +69,10 @@ enum class MapChoice : std::int32_t {
     by_map = 1,    // the first map that holds the point, filter margin included; none: lit
 };
 
-// What the receiver shader knows of one map. The layout is std140: sixteen-byte members only.
-struct MapConstants {
+// What the receiver shader knows of one map. The layout is std140, where each begins at a multiple of sixteen bytes.
+struct alignas(16) MapConstants {
     glm::mat4 clip_from_world{1.0f};  // the matrix that the layer was drawn with
-    float depth_begin = 0.0f;         // eye depth in metres where the map starts to serve (by_depth)
-    float depth_end = 0.0f;           // eye depth in metres where it stops (by_depth)
+    float depth_end = 0.0f;           // eye depth in metres where it stops to serve and the next begins (by_depth)
     float blend_begin = 0.0f;         // eye depth from which it blends into the next map; >= depth_end: no blending
     float w_min = 0.0f;               // clip w at or below this: the map does not hold the point
     float bias_constant = 0.0f;       // depth (of [0, 1]) subtracted from every receiver depth
@@ -103,9 +107,30 @@ static_assert(sizeof(MapConstants) == 96 && sizeof(FrameConstants) == 64 + 7 * 1
 struct ScenePass {
     Extent extent;
     FrameConstants frame;  // reads the maps of the last depth pass
+    bool fitted = false;   // the constants of its maps are those of the last fit; the frame's are not read
 
     // For draw_split_by_split alone: the objects that each split shows, and last those beyond; empty: all, every time.
     std::span<std::span<std::uint32_t const> const> shown{};
+};
+
+// One compute pass of a fit.
+struct ComputeStep {
+    shaders::Shader const* shader = nullptr;
+    glm::uvec3 groups{1u};
+};
+
+// Makes the constants of maps on the device: draws the depth that the eye sees, and runs compute shaders on it. Nothing
+// returns: depth and scene passes that are `fitted` take matrices, ranges and biases from where the shaders put them.
+//
+//   binding 0   the uniform block      binding 2   MapConstants[max_maps], which the last step fills
+//   binding 1   state_bytes of storage for the steps' own use
+//   binding 3   the eye's depth: a sampler2DArray of one layer, reversed, cleared to 0
+struct FitPass {
+    Extent extent;                         // of the eye's depth
+    glm::mat4 clip_from_world{1.0f};       // the eye's, reversed: depth 1 at the near end, 0 at the far one
+    std::span<ComputeStep const> steps;    // each sees what those before it wrote; none: the depth is drawn, no more
+    std::span<std::byte const> constants;  // the uniform block of all steps
+    std::size_t state_bytes = 0;
 };
 
 struct Texel4 {
@@ -163,13 +188,19 @@ public:
     virtual DrawWork draw_scene(ScenePass const& pass) = 0;
 
     // Both in turns, with memory for one map (Zhang, Sun, Nyman 2007, 10.3.1): each map is drawn over the last, and at
-    // once the receivers between its depth_begin and depth_end, clipped there. It leaves the picture of draw_depth and
-    // draw_scene, but for pixels at the borders and those that blend, for no second map is there; and the last map, as
-    // layer 0. The maps are chosen by depth. The way of the pass is of no account.
+    // once the receivers between the depth_end of the map before and its own, clipped there. It leaves the picture of
+    // draw_depth and draw_scene, but for pixels at the borders and those that blend, for no second map is there; and
+    // the last map, as layer 0. The maps are chosen by depth. The way of the pass is of no account.
     virtual DrawWork draw_split_by_split(DepthPass const& maps, ScenePass const& view) = 0;
+
+    virtual DrawWork fit_maps(FitPass const& pass) = 0;  // the eye sees all objects
 
     [[nodiscard]] virtual Image<float> read_depth(int layer) = 0;
     [[nodiscard]] virtual Frame read_frame() = 0;
+
+    // What the last fit looked at, and what it made: for fits on the CPU and for tests. To draw, nothing needs them.
+    [[nodiscard]] virtual Image<float> read_eye_depth() = 0;
+    [[nodiscard]] virtual std::vector<MapConstants> read_fit() = 0;
 
     // Warnings and errors that the driver reported since the last call, one line each; empty when all is well.
     [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;

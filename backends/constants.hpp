@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace shadowmath::backend {
 
@@ -21,6 +22,13 @@ struct alignas(256) MapsBlock {
 };
 struct alignas(256) FrameBlock {
     FrameConstants frame;
+};
+
+// Bytes that go from the maps of a fit into the blocks of a pass, on the device.
+struct BlockCopy {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    std::size_t size = 0;
 };
 
 struct Constants {
@@ -44,6 +52,24 @@ struct Constants {
     }
     [[nodiscard]] static std::size_t offset_of_frame(std::size_t i) {
         return offsetof(Constants, frame) + i * sizeof(FrameBlock);
+    }
+
+    // What set() does, for constants that lie on the device as MapConstants[max_maps].
+    [[nodiscard]] static std::vector<BlockCopy> copies_of_maps(std::size_t count, std::size_t at_once = max_maps) {
+        std::vector<BlockCopy> copies;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::size_t const from = i * sizeof(MapConstants);
+            std::size_t const among = offset_of_maps(i / at_once) + i % at_once * sizeof(glm::mat4);
+            copies.push_back({from, offset_of_map(i), sizeof(glm::mat4)});
+            copies.push_back({from, among, sizeof(glm::mat4)});
+        }
+        return copies;
+    }
+    [[nodiscard]] static std::vector<BlockCopy> copies_of_frames(std::size_t count) {
+        std::vector<BlockCopy> copies;
+        for (std::size_t i = 0; i < count; ++i)
+            copies.push_back({0, offset_of_frame(i) + offsetof(FrameConstants, maps), max_maps * sizeof(MapConstants)});
+        return copies;
     }
 };
 static_assert(sizeof(MapsBlock) <= sizeof(FrameBlock), "a binding as wide as FrameBlock reaches past no end");

@@ -69,6 +69,7 @@ namespace shadowmath::backend {
     if (std::size_t(view.frame.map_count) != maps.layers.size())
         return "split by split: " + std::to_string(maps.layers.size()) + " maps are drawn, but " +
                std::to_string(view.frame.map_count) + " are read";
+    if (maps.fitted || view.fitted) return "split by split: the splits of a fit are known to the device alone";
     if (view.frame.choice != MapChoice::by_depth) return "split by split: the maps are not chosen by depth";
     if (!view.shown.empty() && view.shown.size() != maps.layers.size() + 1)
         return "split by split: " + std::to_string(view.shown.size()) +
@@ -78,6 +79,18 @@ namespace shadowmath::backend {
             if (object >= object_count)
                 return "split by split: shows object " + std::to_string(object) + ", which is not there";
     return {};
+}
+
+[[nodiscard]] inline std::string fault_of(FitPass const& pass) {
+    if (pass.extent.width <= 0 || pass.extent.height <= 0) return "fit: the extent is empty";
+    if (!is_finite(pass.clip_from_world)) return "fit: the eye's matrix is not finite";
+    for (ComputeStep const& step : pass.steps)
+        if (step.shader == nullptr) return "fit: a step has no shader";
+    return {};
+}
+
+[[nodiscard]] inline std::string fault_of_fitted(bool fitted, bool there_is_a_fit) {
+    return fitted && !there_is_a_fit ? "a pass takes fitted maps, but none were fitted" : std::string();
 }
 
 [[nodiscard]] inline std::string fault_of(DrawWay way, std::span<DrawWay const> ways) {

@@ -79,4 +79,41 @@ inline void slice_boxes(ViewVolume<float> const& view, glm::vec3 const& light, g
     }
 }
 
+// A symmetric perspective; the ball of a slice wider than it is deep lies on its far face. Coordinates in float.
+inline void slice_spheres(ViewVolume<float> const& view, glm::vec3 const& light, float map_size, glm::mat4* maps) {
+    float plane[5];
+    four_splits(view.z_near, view.z_far, plane);
+    Axes const a = axes(light);
+    __m128 const eye = along(a, view.pose.position), forward = along(a, view.pose.forward);
+    __m128 const x = _mm_mul_ps(along(a, view.pose.right), spread(view.right));
+    __m128 const y = _mm_mul_ps(along(a, view.pose.up), spread(view.top));
+    __m128 const no_sign = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
+    __m128 const side = _mm_add_ps(_mm_and_ps(x, no_sign), _mm_and_ps(y, no_sign));
+    __m128 const least = _mm_sub_ps(forward, side), largest = _mm_add_ps(forward, side);
+    float const k2 = view.right * view.right + view.top * view.top, k = root(k2);
+    float const texels = 1.0f / map_size, per_radius = 2.0f / (map_size - 5.0f);
+    __m128 const only_depth = _mm_castsi128_ps(_mm_setr_epi32(0, 0, -1, 0));
+    __m128 const half = _mm_setr_ps(0.0f, 0.0f, 0.5f, 1.0f), one_in_w = _mm_setr_ps(0.0f, 0.0f, 0.0f, 1.0f);
+    for (int i = 0; i < 4; ++i) {
+        float const n = plane[i], f = plane[i + 1];
+        float depth = f, radius = f * k;
+        if (k2 * (f + n) < f - n) {
+            depth = 0.5f * (f + n) * (1.0f + k2);
+            radius = root((f - depth) * (f - depth) + k2 * f * f);
+        }
+        float const texel = radius * per_radius, per_texel = 1.0f / texel;
+        __m128 const centre = _mm_mul_ps(_mm_add_ps(eye, _mm_mul_ps(forward, spread(depth))), spread(per_texel));
+        __m128 const window = _mm_cvtepi32_ps(_mm_cvtps_epi32(centre));
+        __m128 const lo = _mm_add_ps(eye, _mm_min_ps(_mm_mul_ps(spread(n), least), _mm_mul_ps(spread(f), least)));
+        __m128 const hi = _mm_add_ps(eye, _mm_max_ps(_mm_mul_ps(spread(n), largest), _mm_mul_ps(spread(f), largest)));
+        __m128 const deep = _mm_div_ps(spread(1.0f), _mm_add_ps(_mm_sub_ps(hi, lo), one_in_w));
+        __m128 const wide = spread(2.0f * texels * per_texel);
+        __m128 const scale = _mm_or_ps(_mm_and_ps(only_depth, deep), _mm_andnot_ps(only_depth, wide));
+        __m128 const middle = _mm_mul_ps(_mm_add_ps(lo, hi), _mm_mul_ps(spread(0.5f), deep));
+        __m128 const moved = _mm_mul_ps(window, spread(2.0f * texels));
+        __m128 const offset = _mm_or_ps(_mm_and_ps(only_depth, middle), _mm_andnot_ps(only_depth, moved));
+        write(a, scale, _mm_sub_ps(half, _mm_mul_ps(offset, _mm_setr_ps(1.0f, 1.0f, 1.0f, 0.0f))), maps[i]);
+    }
+}
+
 }  // namespace bounds

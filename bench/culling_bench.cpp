@@ -7,6 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstring>
+
 using namespace shadowmath;
 
 namespace {
@@ -54,7 +56,25 @@ void textbooks(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
+// Reads what the masks are made from, and does next to nothing with it.
+void read(benchmark::State& state) {
+    bench::Boxes const& boxes = town(state.range(0));
+    for (auto _ : state) {
+        std::uint32_t seen[64] = {};
+        for (std::vector<float> const& column : boxes.columns)
+            for (std::size_t i = 0; i + 64 <= column.size(); i += 64)
+                for (std::size_t j = 0; j < 64; ++j) {
+                    std::uint32_t bits;
+                    std::memcpy(&bits, &column[i + j], sizeof bits);
+                    seen[j] |= bits;
+                }
+        benchmark::DoNotOptimize(seen);
+    }
+    state.SetBytesProcessed(state.iterations() * state.range(0) * 24);
+}
+
 }  // namespace
 
-BENCHMARK(ours)->Name("caster_masks/ours")->Arg(10'000)->Arg(1'000'000);
+BENCHMARK(ours)->Name("caster_masks/ours")->Arg(10'000)->Arg(1'000'000)->Arg(1 << 22);
+BENCHMARK(read)->Name("caster_masks/read")->Arg(1 << 22);
 BENCHMARK(textbooks)->Name("caster_masks/textbook")->Arg(10'000)->Arg(1'000'000);

@@ -18,9 +18,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <functional>
 #include <memory>
-#include <ctime>
 #include <string>
 #include <thread>
 #include <vector>
@@ -74,7 +74,8 @@ public:
             for (std::size_t i = 0; i < vertices; ++i) indices_.push_back(static_cast<std::uint32_t>(i));
         }
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, padded_.data(), 0, 12, vertices);
-        rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices_.data(), 0, 12, vertices / 3);
+        rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices_.data(), 0, 12,
+                                   vertices / 3);
         rtcCommitGeometry(mesh);
         rtcAttachGeometry(tree_, mesh);
         rtcReleaseGeometry(mesh);
@@ -167,9 +168,11 @@ public:
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 std::size_t const pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-                glm::vec3 const n(picture.normal[3 * pixel], picture.normal[3 * pixel + 1], picture.normal[3 * pixel + 2]);
+                glm::vec3 const n(picture.normal[3 * pixel], picture.normal[3 * pixel + 1],
+                                  picture.normal[3 * pixel + 2]);
                 if (n == glm::vec3(0.0f)) continue;
-                glm::vec3 const p(picture.position[3 * pixel], picture.position[3 * pixel + 1], picture.position[3 * pixel + 2]);
+                glm::vec3 const p(picture.position[3 * pixel], picture.position[3 * pixel + 1],
+                                  picture.position[3 * pixel + 2]);
                 if (glm::dot(n, to_light) * glm::dot(n, frame.eye - p) <= 0.0f) {
                     masks[pixel] = ~0u;
                     continue;
@@ -178,7 +181,8 @@ public:
                 MicroQuad<float> const quad = micro_quad(frame, x, y, depth, n);
                 float const start = 2e-4f / std::abs(glm::dot(n, to_light));
                 for (int s = 0; s < spread; ++s) {
-                    float const u = spread == 1 ? 0.5f : pixel_samples<float>.u[s], v = spread == 1 ? 0.5f : pixel_samples<float>.v[s];
+                    float const u = spread == 1 ? 0.5f : pixel_samples<float>.u[s],
+                                v = spread == 1 ? 0.5f : pixel_samples<float>.v[s];
                     glm::vec3 const from = point_on(frame, quad, x, y, u, v);
                     rays[pixels.size() * static_cast<std::size_t>(spread) + static_cast<std::size_t>(s)] = {
                         from.x, from.y, from.z, start, to_light.x, to_light.y, to_light.z, 0.0f, 1e4f, ~0u, 0, 0};
@@ -220,7 +224,8 @@ ShadowMap<float> grid_named(std::string const& name, CasterScene const& scene) {
     if (name == "plain") return plain_grid(scene);
     Aabb<float> const box{{-scene.extent, -scene.height, -scene.extent}, {scene.extent, scene.height, scene.extent}};
     if (name == "plane")
-        return view_dependent_map(scene.eye, scene.sun, plane_through<float>({0, 0, 0}, {0, 1, 0}), box, box, {}, gl_zero_to_one_clip);
+        return view_dependent_map(scene.eye, scene.sun, plane_through<float>({0, 0, 0}, {0, 1, 0}), box, box, {},
+                                  gl_zero_to_one_clip);
     WarpOptions<float> options;
     options.strength = name == "turned" ? 0.0f : 1.0f;
     return simple_perspective_map(scene.eye, scene.sun, box, box, options, gl_zero_to_one_clip);
@@ -243,7 +248,13 @@ struct Ours {
         for (int k = 0; k < parts; ++k) {
             int const begin = width / 4 * k / parts * 4, end = width / 4 * (k + 1) / parts * 4;
             StorageSize const need = storage_for(end - begin, height, map_size);
-            strips.push_back({std::vector<float>(need.scalars), std::vector<std::uint32_t>(need.words), {begin, 0, end - begin, height}, {}, {}, 0, 0});
+            strips.push_back({std::vector<float>(need.scalars),
+                              std::vector<std::uint32_t>(need.words),
+                              {begin, 0, end - begin, height},
+                              {},
+                              {},
+                              0,
+                              0});
         }
     }
 
@@ -289,12 +300,18 @@ int main(int argc, char** argv) {
     bool embree_too = true;
     for (int i = 1; i < argc; ++i) {
         std::string const word = argv[i];
-        if (word == "--rounds" && i + 1 < argc) rounds = std::atoi(argv[++i]);
-        else if (word == "--scene" && i + 1 < argc) only = argv[++i];
-        else if (word == "--grid-size" && i + 1 < argc) grid_size = std::atoi(argv[++i]);
-        else if (word == "--grid" && i + 1 < argc) grid_name = argv[++i];
-        else if (word == "--ours") embree_too = false;
-        else sizes.push_back(static_cast<std::uint32_t>(std::atoi(argv[i])));
+        if (word == "--rounds" && i + 1 < argc)
+            rounds = std::atoi(argv[++i]);
+        else if (word == "--scene" && i + 1 < argc)
+            only = argv[++i];
+        else if (word == "--grid-size" && i + 1 < argc)
+            grid_size = std::atoi(argv[++i]);
+        else if (word == "--grid" && i + 1 < argc)
+            grid_name = argv[++i];
+        else if (word == "--ours")
+            embree_too = false;
+        else
+            sizes.push_back(static_cast<std::uint32_t>(std::atoi(argv[i])));
     }
     if (sizes.empty()) sizes = {100000, 1000000};
     float const aspect = static_cast<float>(width) / height;
@@ -315,16 +332,20 @@ int main(int argc, char** argv) {
                 pair.push_back(two.frame(frame, picture, scene, grid, grid_size));
             }
             ListCounts const& c = one.strips[0].counts;
-            std::printf("%s %u: ours %.1f ms (list %.1f, trace %.1f), 2 threads %.1f (x%.2f); tiles %u parts %u nodes %u lists %u longest %u mean %.2f faults %x\n", scene.name.c_str(),
-                        scene.triangle_count(), median(single), one.strips[0].list_ms, one.strips[0].trace_ms, median(pair),
-                        median(single) / median(pair), c.tiles, c.parts, c.nodes, c.lists, c.longest, double(c.nodes) / c.lists, one.strips[0].faults.bits);
+            std::printf("%s %u: ours %.1f ms (list %.1f, trace %.1f), 2 threads %.1f (x%.2f); tiles %u parts %u nodes "
+                        "%u lists %u longest %u mean %.2f faults %x\n",
+                        scene.name.c_str(), scene.triangle_count(), median(single), one.strips[0].list_ms,
+                        one.strips[0].trace_ms, median(pair), median(single) / median(pair), c.tiles, c.parts, c.nodes,
+                        c.lists, c.longest, double(c.nodes) / c.lists, one.strips[0].faults.bits);
             if (!embree_too) continue;
             double best = 1e30, best_one = 1e30;
-            for (auto const [quality, label] : {std::pair(RTC_BUILD_QUALITY_LOW, "morton"), std::pair(RTC_BUILD_QUALITY_MEDIUM, "sah")}) {
+            for (auto const [quality, label] :
+                 {std::pair(RTC_BUILD_QUALITY_LOW, "morton"), std::pair(RTC_BUILD_QUALITY_MEDIUM, "sah")}) {
                 double const build = embree.build(quality);
                 std::printf("  embree %s build %.1f:", label, build);
-                for (auto const [query, name] : {std::pair(Embree::Query::one, "1"), std::pair(Embree::Query::eight, "8"),
-                                                 std::pair(Embree::Query::sixteen, "16"), std::pair(Embree::Query::many, "1M")}) {
+                for (auto const [query, name] :
+                     {std::pair(Embree::Query::one, "1"), std::pair(Embree::Query::eight, "8"),
+                      std::pair(Embree::Query::sixteen, "16"), std::pair(Embree::Query::many, "1M")}) {
                     double const ms = embree.occlusion(frame, picture, query, 32, truth);
                     std::vector<std::uint32_t> other;
                     double const lone = embree.occlusion(frame, picture, query, 1, other);
@@ -336,14 +357,18 @@ int main(int argc, char** argv) {
             }
             std::size_t samples = 0, wrong = 0, dark = 0, partial = 0;
             for (std::size_t i = 0; i < truth.size(); ++i) {
-                if (picture.normal[3 * i] == 0 && picture.normal[3 * i + 1] == 0 && picture.normal[3 * i + 2] == 0) continue;
+                if (picture.normal[3 * i] == 0 && picture.normal[3 * i + 1] == 0 && picture.normal[3 * i + 2] == 0)
+                    continue;
                 samples += 32;
                 dark += static_cast<std::size_t>(__builtin_popcount(truth[i]));
                 partial += truth[i] != 0 && truth[i] != ~0u;
                 wrong += static_cast<std::size_t>(__builtin_popcount(truth[i] ^ one.masks[i]));
             }
-            std::printf("  best frame %.0f ms: x%.1f; at one ray a pixel %.1f ms: x%.2f; samples %zu dark %.1f%% partial pixels %.1f%% differing %.1f ppm\n", best, best / median(single),
-                        best_one, best_one / median(single), samples, 100.0 * static_cast<double>(dark) / static_cast<double>(samples), 3200.0 * static_cast<double>(partial) / static_cast<double>(samples),
+            std::printf("  best frame %.0f ms: x%.1f; at one ray a pixel %.1f ms: x%.2f; samples %zu dark %.1f%% "
+                        "partial pixels %.1f%% differing %.1f ppm\n",
+                        best, best / median(single), best_one, best_one / median(single), samples,
+                        100.0 * static_cast<double>(dark) / static_cast<double>(samples),
+                        3200.0 * static_cast<double>(partial) / static_cast<double>(samples),
                         1e6 * static_cast<double>(wrong) / static_cast<double>(samples));
         }
     return 0;

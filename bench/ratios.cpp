@@ -6,6 +6,7 @@
 //   bench_ratios native.json plain.json include_cost.txt ratios.json
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -47,7 +48,9 @@ constexpr Goal goals[] = {
 // "case/variant/size" with its median.
 Times medians_of(char const* path) {
     Times times;
-    for (json const& run : json::parse(std::ifstream(path))["benchmarks"]) {
+    std::ifstream file(path);
+    json const report = json::parse(file);
+    for (json const& run : report["benchmarks"]) {
         if (run.value("aggregate_name", "") != "median") continue;
         std::string const name = run["run_name"];
         std::size_t const first = name.find('/'), second = name.find('/', first + 1);
@@ -122,5 +125,5 @@ int main(int argc, char** argv) {
                         {"met", above <= limit},
                         {"flags", "-fsyntax-only"}});
     }
-    std::ofstream(argv[4]) << json{{"rows", rows}}.dump(2) << '\n';
+    std::ofstream(argv[4]) << rows.dump(2) << '\n';
 }

@@ -65,8 +65,77 @@ void boxes_textbook(benchmark::State& state) {
                  [](textbook::Camera const& camera) { return textbook::tight_cascades(camera, bench::sun, 0.5f); });
 }
 
+void spheres(benchmark::State& state) {
+    with_views(state, [](ViewVolume<float> const& view, glm::mat4* maps) {
+        Splits<float> const splits = practical_splits(view.z_near, view.z_far, 4);
+        bool const fitted =
+            fit_slice_spheres(view, light_basis(bench::sun), splits, 2048, 2.0f, gl_zero_to_one_clip, maps);
+        benchmark::DoNotOptimize(fitted);
+    });
+}
+
+void spheres_bound(benchmark::State& state) {
+    with_views(state, [](ViewVolume<float> const& view, glm::mat4* maps) {
+        bounds::slice_spheres(view, bench::sun, 2048.0f, maps);
+    });
+}
+
+void spheres_textbook(benchmark::State& state) {
+    with_cameras(state, [](textbook::Camera const& camera) {
+        return textbook::stable_cascades(camera, bench::sun, 0.5f, 2048.0f);
+    });
+}
+
+// The one call, which also bounds each map's depth by a scene and checks everything.
+template <CascadeFit fit>
+void one_call(benchmark::State& state) {
+    CascadeOptions<float> options;
+    options.fit = fit;
+    Aabb<float> const scene{glm::vec3(-500, 0, -500), glm::vec3(500, 30, 500)};
+    with_views(state, [&](ViewVolume<float> const& view, glm::mat4* maps) {
+        Cascades<float> const cascades = fit_cascades(view, directional(bench::sun), scene, scene, options);
+        for (int i = 0; i < 4; ++i) maps[i] = cascades.at[i].map.clip_from_world;
+    });
+}
+
+void many_boxes(benchmark::State& state) {
+    bench::Random random;
+    std::vector<ViewVolume<float>> views;
+    for (std::int64_t i = 0; i < state.range(0); ++i) views.push_back(bench::view_of(bench::some_camera(random)));
+    std::vector<glm::mat4> maps(4 * views.size());
+    LightBasis<float> const basis = light_basis(bench::sun);
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            Splits<float> const splits = practical_splits(views[i].z_near, views[i].z_far, 4);
+            bool const fitted = fit_slice_boxes(views[i], basis, splits, 0.0f, gl_zero_to_one_clip, &maps[4 * i]);
+            benchmark::DoNotOptimize(fitted);
+        }
+        benchmark::ClobberMemory();
+    }
+}
+
+void many_boxes_textbook(benchmark::State& state) {
+    bench::Random random;
+    std::vector<textbook::Camera> all;
+    for (std::int64_t i = 0; i < state.range(0); ++i) all.push_back(bench::some_camera(random));
+    std::vector<textbook::Maps> maps(all.size());
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < all.size(); ++i) maps[i] = textbook::tight_cascades(all[i], bench::sun, 0.5f);
+        benchmark::ClobberMemory();
+    }
+}
+
 }  // namespace
 
+BENCHMARK(spheres)->Name("slice_spheres/ours");
+BENCHMARK(spheres_bound)->Name("slice_spheres/bound");
+BENCHMARK(spheres_textbook)->Name("slice_spheres/textbook");
+BENCHMARK(one_call<CascadeFit::tight>)->Name("fit_cascades_tight/ours");
+BENCHMARK(boxes_textbook)->Name("fit_cascades_tight/textbook");
+BENCHMARK(one_call<CascadeFit::stable>)->Name("fit_cascades_stable/ours");
+BENCHMARK(spheres_textbook)->Name("fit_cascades_stable/textbook");
+BENCHMARK(many_boxes)->Name("many_views/ours")->Arg(10'000);
+BENCHMARK(many_boxes_textbook)->Name("many_views/textbook")->Arg(10'000);
 BENCHMARK(boxes)->Name("slice_boxes/ours");
 BENCHMARK(boxes_bound)->Name("slice_boxes/bound");
 BENCHMARK(boxes_textbook)->Name("slice_boxes/textbook");

@@ -1186,6 +1186,36 @@ template <class T>
     return smallest_ball(points);
 }
 
+template <class T>
+struct BallInView {
+    Vec3<T> center{T(0)};  // (right, up, forward), in units
+    T unit = T(1);         // metres
+    T radius_metres = T(0);
+};
+
+// Of a slice without faults, of any kind.
+template <class T>
+[[nodiscard]] inline BallInView<T> ball_in_view(ViewVolume<T> const& slice) noexcept {
+    bool const flat = slice.kind == ViewKind::orthographic;
+    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
+                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
+    Sphere<T> ball;
+    if (flat) {
+        T const half = T(0.5) / unit;
+        Vec3<T> const extent((slice.right - slice.left) * half, (slice.top - slice.bottom) * half,
+                             (slice.z_far - slice.z_near) * half);
+        ball.center = Vec3<T>((slice.left + slice.right) * half, (slice.bottom + slice.top) * half,
+                              (slice.z_near + slice.z_far) * half);
+        ball.radius = std::sqrt(glm::dot(extent, extent));
+    } else {
+        ball = ball_of_unit_slice(slice, slice.z_near / slice.z_far);
+    }
+    // Up by what the coordinates of corner and centre were rounded by.
+    T const slack = T(8) * std::numeric_limits<T>::epsilon();
+    return {ball.center, unit, (ball.radius + slack * (T(1) + ball.radius)) * unit};
+}
+
 }  // namespace detail
 
 // Holds all eight corners, each to the rounding of its own world coordinates, and no smaller ball does, but for a few
@@ -1203,22 +1233,9 @@ template <class T>
         !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
         (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
         return {};
-    T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
-    Sphere<T> ball;
-    if (flat) {
-        T const half = T(0.5) / unit;
-        Vec3<T> const extent((slice.right - slice.left) * half, (slice.top - slice.bottom) * half,
-                             (slice.z_far - slice.z_near) * half);
-        ball.center = Vec3<T>((slice.left + slice.right) * half, (slice.bottom + slice.top) * half,
-                              (slice.z_near + slice.z_far) * half);
-        ball.radius = std::sqrt(glm::dot(extent, extent));
-    } else {
-        ball = detail::ball_of_unit_slice(slice, slice.z_near / slice.z_far);
-    }
-    // Up by what the coordinates of corner and centre were rounded by.
-    T const slack = T(8) * std::numeric_limits<T>::epsilon();
-    return {p + (f * ball.center.z + r * ball.center.x + u * ball.center.y) * unit,
-            (ball.radius + slack * (T(1) + ball.radius)) * unit};
+    detail::BallInView<T> const seen = detail::ball_in_view(slice);
+    Vec3<T> const& c = seen.center;
+    return {p + (f * c.z + r * c.x + u * c.y) * seen.unit, seen.radius_metres};
 }
 
 }  // namespace v0
@@ -1348,7 +1365,9 @@ struct ViewInLight {
     Lanes<T> eye_lo;    // at depth 0, the least
     Lanes<T> eye_hi;    // and the largest
     Lanes<T> slope_lo;  // by which they grow with depth
-    Lanes<T> slope_hi;  // all four outward by what a coordinate may be rounded by
+    Lanes<T> slope_hi;
+    T rounding;  // of a coordinate at depth 0, metres
+    T rounding_slope;
 };
 
 template <class T>
@@ -1383,21 +1402,30 @@ template <class T>
     bool const flat = view.kind == ViewKind::orthographic;
     T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
     constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
-    Lanes<T> const rounding = all_four(unit * (absolute_sum(pose.position) + (flat ? sides : T(0))));
-    Lanes<T> const rounding_slope = all_four(unit * (T(1) + (flat ? T(0) : sides)));
-    seen.eye_lo = (flat ? eye + lo : eye) - rounding;
-    seen.eye_hi = (flat ? eye + hi : eye) + rounding;
-    seen.slope_lo = (flat ? forward : forward + lo) - rounding_slope;
-    seen.slope_hi = (flat ? forward : forward + hi) + rounding_slope;
+    seen.rounding = unit * (absolute_sum(pose.position) + (flat ? sides : T(0)));
+    seen.rounding_slope = unit * (T(1) + (flat ? T(0) : sides));
+    seen.eye_lo = flat ? eye + lo : eye;
+    seen.eye_hi = flat ? eye + hi : eye;
+    seen.slope_lo = flat ? forward : forward + lo;
+    seen.slope_hi = flat ? forward : forward + hi;
     return true;
 }
 
 // Neither so near that a reciprocal overflows nor out of reach; increasing, as all functions make them.
 template <class T>
 [[nodiscard]] inline bool in_range(Splits<T> const& splits) noexcept {
-    T const &first = splits.plane[0], &last = splits.plane[splits.count];
-    return splits.count > 0 && all_finite(&first, 1) && all_finite(&last, 1) && first >= T(0) &&
-           splits.plane[1] >= least_metres<T> && last <= farthest_metres<T>;
+    if (splits.count < 1 || splits.count > max_splits || !all_finite(splits.plane, splits.count + 1)) return false;
+    bool increasing = splits.plane[0] >= T(0);
+    for (int i = 0; i < splits.count; ++i) increasing = increasing & (splits.plane[i] < splits.plane[i + 1]);
+    return increasing && splits.plane[1] >= least_metres<T> && splits.plane[splits.count] <= farthest_metres<T>;
+}
+
+// As bounding_sphere asks of a slice.
+template <class T>
+[[nodiscard]] inline bool ball_in_reach(ViewVolume<T> const& view, T farthest) noexcept {
+    T const side = std::fmax(std::fmax(std::abs(view.left), std::abs(view.right)),
+                             std::fmax(std::abs(view.bottom), std::abs(view.top)));
+    return view.kind == ViewKind::orthographic || (side <= T(1e9) && side * farthest <= farthest_metres<T>);
 }
 
 // Extent of the map on each axis, and its middle, in the convention.
@@ -1444,13 +1472,84 @@ template <class T>
     detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(2) - T(4) * border);
     for (int i = 0; i < splits.count; ++i) {
         Lanes const n = detail::all_four(splits.plane[i]), f = detail::all_four(splits.plane[i + 1]);
-        Lanes const lo = seen.eye_lo + least(n * seen.slope_lo, f * seen.slope_lo);
-        Lanes const hi = seen.eye_hi + largest(n * seen.slope_hi, f * seen.slope_hi);
+        Lanes const rounding = detail::all_four(seen.rounding + seen.rounding_slope * splits.plane[i + 1]);
+        Lanes const lo = seen.eye_lo + least(n * seen.slope_lo, f * seen.slope_lo) - rounding;
+        Lanes const hi = seen.eye_hi + largest(n * seen.slope_hi, f * seen.slope_hi) + rounding;
         Lanes const scale = map.extent / (hi - lo);
         detail::write_columns(seen, scale, map.middle - (lo + hi) * detail::all_four(T(0.5)) * scale,
                               clip_from_world[i]);
     }
     return true;
+}
+
+// As fit_slice_boxes, with the window of the slice's bounding sphere on the texel grid (texel_grid.hpp) for sides: what
+// casts no shimmering shadows. Nothing of the sphere is lost in x and y, and no corner of the slice in depth. False as
+// well where the margin leaves no texel, or the view is so far out that its texels cannot be counted.
+template <class T>
+[[nodiscard]] inline bool fit_slice_spheres(ViewVolume<T> const& view, LightBasis<T> const& basis,
+                                            Splits<T> const& splits, int map_size, T margin_texels, ClipSpace clip,
+                                            Mat4<T>* clip_from_world) noexcept {
+    using Lanes = detail::Lanes<T>;
+    using Exact = decltype(T() + double());
+    detail::ViewInLight<T> seen;
+    Faults const margin = faults_of_margin(map_size, margin_texels);
+    bool good = detail::look(basis, view, seen) && detail::in_range(splits) && !margin.has(Fault::not_finite) &&
+                !margin.has(Fault::map_too_small) && detail::ball_in_reach(view, splits.plane[splits.count]);
+    if (!good) {
+        for (int i = 0; i < splits.count; ++i) clip_from_world[i] = nowhere<T>();
+        return false;
+    }
+    detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(1));
+    T const radii =
+        (T(2) + T(16) * std::numeric_limits<T>::epsilon()) / (usable_texels(map_size, margin_texels) - T(1));
+    Exact const size = Exact(map_size), per_side = 1 / size;
+    auto const exact = [](Vec3<T> const& axis, Vec3<T> const& v) {
+        return Exact(axis.x) * Exact(v.x) + Exact(axis.y) * Exact(v.y) + Exact(axis.z) * Exact(v.z);
+    };
+    Pose<T> const& pose = view.pose;
+    bool const centred = view.left == -view.right && view.bottom == -view.top;
+    Exact const eye_x = exact(basis.x, pose.position), eye_y = exact(basis.y, pose.position);
+    Exact const forward_x = exact(basis.x, pose.forward), forward_y = exact(basis.y, pose.forward);
+    ViewVolume<T> part = view;
+    for (int i = 0; i < splits.count; ++i) {
+        part.z_near = splits.plane[i], part.z_far = splits.plane[i + 1];
+        detail::BallInView<T> const ball = detail::ball_in_view(part);
+        Exact const unit = Exact(ball.unit), depth = Exact(ball.center.z) * unit;
+        Exact x = eye_x + forward_x * depth, y = eye_y + forward_y * depth;
+        if (!centred) {
+            x += (exact(basis.x, pose.right) * Exact(ball.center.x) + exact(basis.x, pose.up) * Exact(ball.center.y)) *
+                 unit;
+            y += (exact(basis.y, pose.right) * Exact(ball.center.x) + exact(basis.y, pose.up) * Exact(ball.center.y)) *
+                 unit;
+        }
+        T const texel = ball.radius_metres * radii;
+        Exact const texels = 1 / Exact(texel), middle = Exact(0.5) - size * Exact(0.5);
+        Exact const left = x * texels + middle, bottom = y * texels + middle;
+        if (!(std::abs(left) < Exact(0x1p51) && std::abs(bottom) < Exact(0x1p51)) ||
+            !(texel >= detail::least_metres<T>)) {
+            clip_from_world[i] = nowhere<T>();
+            good = false;
+            continue;
+        }
+        auto const whole = [](Exact value) {
+            auto const truncated = static_cast<std::int64_t>(value);
+            return truncated - (Exact(truncated) > value ? 1 : 0);
+        };
+        T const across = T(2 * per_side * texels);
+        T const offset_x = T(-(2 * Exact(whole(left)) * per_side + 1));
+        T const offset_y = T(-(2 * Exact(whole(bottom)) * per_side + 1));
+        T const n = part.z_near, f = part.z_far;
+        T const n_lo = n * seen.slope_lo[2], f_lo = f * seen.slope_lo[2];
+        T const n_hi = n * seen.slope_hi[2], f_hi = f * seen.slope_hi[2];
+        T const rounding = seen.rounding + seen.rounding_slope * f;
+        T const lo = seen.eye_lo[2] + (n_lo < f_lo ? n_lo : f_lo) - rounding;
+        T const hi = seen.eye_hi[2] + (n_hi > f_hi ? n_hi : f_hi) + rounding;
+        T const along = map.extent[2] / (hi - lo), up = map.extent[1];
+        detail::write_columns(seen, Lanes::of(across, across * up, along, T(0)),
+                              Lanes::of(offset_x, offset_y * up, map.middle[2] - (lo + hi) * T(0.5) * along, T(1)),
+                              clip_from_world[i]);
+    }
+    return good;
 }
 
 }  // namespace v0
@@ -1847,14 +1946,14 @@ template <class T>
     return {region.lo - border, region.hi + border};
 }
 
-// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty, not
-// finite, or so small or so large that its scale would not be, gives the identity.
+// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or
+// not finite gives the identity.
 template <class T>
 [[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
-    Vec2<T> const scale = T(2) / (region.hi - region.lo);
-    Vec2<T> const offset = -(region.hi + region.lo) / (region.hi - region.lo);
-    if (!all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
+    Vec2<T> const size = region.hi - region.lo;
+    Vec2<T> const scale = T(2) / size, offset = -(region.hi + region.lo) / size;
+    if (!all_finite(size) || !all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
     return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
                      Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }
@@ -1937,99 +2036,160 @@ namespace detail {
 
 inline constexpr int bodies_at_once = 16;
 
-// The least and the largest NDC so far, one of each for every place in a block.
+// Least and largest NDC so far, one of each for every place in a block of boxes.
 template <class T>
-struct BoundsInLanes {
+struct BoundsInBlocks {
+    static constexpr int n = bodies_at_once;
+    static constexpr T none = std::numeric_limits<T>::max();
     T lo[3][bodies_at_once];
     T hi[3][bodies_at_once];
-};
 
-// One block of boxes. `plain` says which of them were taken: all eight corners at w >= w_min, nothing empty, nothing
-// too large. The others are left to the caller, but for those wholly behind w_min, which have no bounds.
-template <class T>
-struct BoundsBlock {
-    Mat4<T> const& m;
-    T w_min;
-    BoxArrays<T> const& boxes;
-    BoundsInLanes<T>& bounds;
-    std::uint32_t* plain;
-    std::uint32_t* behind;
-
-    // Products of a row with both ends of each axis: a corner is X + Y + Z, so eight corners are six products.
-    struct Row {
-        T x0, x1, y0, y1, z0, z1;
-    };
-    [[gnu::always_inline]] Row row_of(int r, int i) const noexcept {
-        return {m[0][r] * boxes.lo_x[i], m[0][r] * boxes.hi_x[i],           m[1][r] * boxes.lo_y[i],
-                m[1][r] * boxes.hi_y[i], m[2][r] * boxes.lo_z[i] + m[3][r], m[2][r] * boxes.hi_z[i] + m[3][r]};
+    [[gnu::always_inline]] BoundsInBlocks() noexcept {
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < n; ++i) lo[r][i] = none, hi[r][i] = -none;
     }
     [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
     [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
+    [[gnu::always_inline]] void add(int r, int i, std::uint32_t taken, T least, T most) noexcept {
+        lo[r][i] = less(lo[r][i], taken != 0 ? least : none);
+        hi[r][i] = more(hi[r][i], taken != 0 ? most : -none);
+    }
+    [[nodiscard]] Aabb<T> merged() const noexcept {
+        Aabb<T> all;
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < n; ++i) {
+                all.lo[r] = less(all.lo[r], lo[r][i]);
+                all.hi[r] = more(all.hi[r], hi[r][i]);
+            }
+        return all;
+    }
+};
 
-    [[gnu::always_inline]] static T sum(Row const& row, int corner) noexcept {
-        return (corner & 1 ? row.x1 : row.x0) + (corner & 2 ? row.y1 : row.y0) + (corner & 4 ? row.z1 : row.z0);
+// Products of a row with both ends of each axis of a box. A corner is X + Y + Z, so that eight corners are six
+// products, and the extent of all of them is three sums.
+template <class T>
+struct EndProducts {
+    T x0, x1, y0, y1, z0, z1;
+
+    [[gnu::always_inline]] EndProducts(Vec4<T> const& row, BoxArrays<T> const& at, int i) noexcept
+        : x0(row.x * at.lo_x[i]), x1(row.x * at.hi_x[i]), y0(row.y * at.lo_y[i]), y1(row.y * at.hi_y[i]),
+          z0(row.z * at.lo_z[i] + row.w), z1(row.z * at.hi_z[i] + row.w) {}
+    [[gnu::always_inline]] T least() const noexcept {
+        return (x0 < x1 ? x0 : x1) + (y0 < y1 ? y0 : y1) + (z0 < z1 ? z0 : z1);
+    }
+    [[gnu::always_inline]] T most() const noexcept {
+        return (x0 > x1 ? x0 : x1) + (y0 > y1 ? y0 : y1) + (z0 > z1 ? z0 : z1);
+    }
+};
+
+// Bounds of whole blocks of boxes; projected_bounds below prepares the matrix.
+template <class T>
+struct BoundsOfBoxes {
+    Mat4<T> const& matrix;
+    T w_min;
+    BoxArrays<T> const& boxes;
+    int blocks;
+    Aabb<T>& bounds;
+
+    static constexpr int n = bodies_at_once;
+
+    [[gnu::always_inline]] static bool in_reach(BoxArrays<T> const& at) noexcept {
+        decltype(beyond_reach(T(0))) beyond = 0;
+        for (int i = 0; i < n; ++i)
+            beyond |= beyond_reach(std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) +
+                                   std::abs(at.hi_y[i]) + std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]));
+        return beyond >> (8 * sizeof beyond - 1) == 0;
+    }
+    [[gnu::always_inline]] static bool full(BoxArrays<T> const& at, int i) noexcept {
+        return (at.lo_x[i] <= at.hi_x[i]) & (at.lo_y[i] <= at.hi_y[i]) & (at.lo_z[i] <= at.hi_z[i]);
     }
 
-    // The four rows of a matrix with (0, 0, 0, w) below: extents add up, and one quotient at the end serves all.
+    // w is the same everywhere: one quotient at the end serves all.
     [[gnu::always_inline]] void affine() const noexcept {
-        for (int r = 0; r < 3; ++r) {
-            for (int i = 0; i < bodies_at_once; ++i) {
-                Row const at = row_of(r, i);
-                T const lo = less(at.x0, at.x1) + less(at.y0, at.y1) + less(at.z0, at.z1);
-                T const hi = more(at.x0, at.x1) + more(at.y0, at.y1) + more(at.z0, at.z1);
-                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
-                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+        BoundsInBlocks<T> so_far;
+        T least[bodies_at_once], most[bodies_at_once];
+        std::uint32_t taken[bodies_at_once];
+        for (int block = 0; block < blocks; ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, block * n);
+            if (!in_reach(at)) {
+                one_by_one(at, nullptr);
+                continue;
+            }
+            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
+            for (int r = 0; r < 3; ++r) {
+                Vec4<T> const above = row(matrix, r);
+                for (int i = 0; i < n; ++i) {
+                    EndProducts<T> const p(above, at, i);
+                    least[i] = p.least();
+                    most[i] = p.most();
+                }
+                // NOTE: in the loop above, this would become a branch.
+                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i], least[i], most[i]);
             }
         }
+        Aabb<T> const merged = so_far.merged();
+        if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{merged.lo / matrix[3][3], merged.hi / matrix[3][3]});
     }
 
     [[gnu::always_inline]] void perspective() const noexcept {
+        BoundsInBlocks<T> so_far;
         T inverse[8][bodies_at_once];
-        for (int i = 0; i < bodies_at_once; ++i) {
-            Row const w = row_of(3, i);
-            T const least = less(w.x0, w.x1) + less(w.y0, w.y1) + less(w.z0, w.z1);
-            T const most = more(w.x0, w.x1) + more(w.y0, w.y1) + more(w.z0, w.z1);
-            behind[i] = ((most < w_min) & (plain[i] != 0)) ? 1u : 0u;
-            plain[i] = least >= w_min ? plain[i] : 0u;
-            inverse[0][i] = T(1) / sum(w, 0), inverse[1][i] = T(1) / sum(w, 1);
-            inverse[2][i] = T(1) / sum(w, 2), inverse[3][i] = T(1) / sum(w, 3);
-            inverse[4][i] = T(1) / sum(w, 4), inverse[5][i] = T(1) / sum(w, 5);
-            inverse[6][i] = T(1) / sum(w, 6), inverse[7][i] = T(1) / sum(w, 7);
-        }
-        for (int r = 0; r < 3; ++r) {
-            for (int i = 0; i < bodies_at_once; ++i) {
-                Row const at = row_of(r, i);
-                T const a = sum(at, 0) * inverse[0][i], b = sum(at, 1) * inverse[1][i];
-                T const c = sum(at, 2) * inverse[2][i], d = sum(at, 3) * inverse[3][i];
-                T const e = sum(at, 4) * inverse[4][i], f = sum(at, 5) * inverse[5][i];
-                T const g = sum(at, 6) * inverse[6][i], h = sum(at, 7) * inverse[7][i];
-                T const lo = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
-                T const hi = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
-                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
-                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+        std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
+        for (int block = 0; block < blocks; ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, block * n);
+            if (!in_reach(at)) {
+                one_by_one(at, nullptr);
+                continue;
             }
+            std::uint32_t any_astride = 0;
+            Vec4<T> const below = row(matrix, 3);
+            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
+            for (int i = 0; i < n; ++i) {
+                EndProducts<T> const w(below, at, i);
+                T const least = w.least(), most = w.most();
+                std::uint32_t const in_front = least >= w_min ? ~0u : 0u, reaches = most >= w_min ? ~0u : 0u;
+                astride[i] = taken[i] & reaches & ~in_front;
+                taken[i] &= in_front;
+                any_astride |= astride[i];
+                T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
+                inverse[0][i] = T(1) / (xy00 + w.z0), inverse[1][i] = T(1) / (xy10 + w.z0);
+                inverse[2][i] = T(1) / (xy01 + w.z0), inverse[3][i] = T(1) / (xy11 + w.z0);
+                inverse[4][i] = T(1) / (xy00 + w.z1), inverse[5][i] = T(1) / (xy10 + w.z1);
+                inverse[6][i] = T(1) / (xy01 + w.z1), inverse[7][i] = T(1) / (xy11 + w.z1);
+            }
+            for (int r = 0; r < 3; ++r) {
+                Vec4<T> const above = row(matrix, r);
+                for (int i = 0; i < n; ++i) {
+                    EndProducts<T> const p(above, at, i);
+                    T const xy00 = p.x0 + p.y0, xy10 = p.x1 + p.y0, xy01 = p.x0 + p.y1, xy11 = p.x1 + p.y1;
+                    T const a = (xy00 + p.z0) * inverse[0][i], b = (xy10 + p.z0) * inverse[1][i];
+                    T const c = (xy01 + p.z0) * inverse[2][i], d = (xy11 + p.z0) * inverse[3][i];
+                    T const e = (xy00 + p.z1) * inverse[4][i], f = (xy10 + p.z1) * inverse[5][i];
+                    T const g = (xy01 + p.z1) * inverse[6][i], h = (xy11 + p.z1) * inverse[7][i];
+                    auto const less = [](T s, T t) { return BoundsInBlocks<T>::less(s, t); };
+                    auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
+                    T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
+                    T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
+                    so_far.add(r, i, taken[i], least, most);
+                }
+            }
+            if (any_astride != 0) one_by_one(at, astride);
+        }
+        bounds = merge(bounds, so_far.merged());
+    }
+
+    // `wanted`: null for all.
+    void one_by_one(BoxArrays<T> const& at, std::uint32_t const* wanted) const noexcept {
+        for (int i = 0; i < n; ++i) {
+            if (wanted != nullptr && wanted[i] == 0) continue;
+            Aabb<T> const box = box_at(at, i);
+            if (all_finite(box) && !is_empty(box))
+                bounds = merge(bounds, projected_bounds(matrix, corners(box), w_min));
         }
     }
 
     [[gnu::always_inline]] void operator()() const noexcept {
-        decltype(beyond_reach(T(0))) beyond = 0;
-        for (int i = 0; i < bodies_at_once; ++i) {
-            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
-                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
-            beyond |= beyond_reach(sizes);
-        }
-        if (beyond >> (8 * sizeof beyond - 1) != 0) {
-            for (int i = 0; i < bodies_at_once; ++i) plain[i] = behind[i] = 0;
-            return;
-        }
-        for (int i = 0; i < bodies_at_once; ++i) {
-            plain[i] =
-                ((boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]))
-                    ? 1u
-                    : 0u;
-            behind[i] = 0;
-        }
-        bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+        bool const flat = matrix[0][3] == T(0) && matrix[1][3] == T(0) && matrix[2][3] == T(0);
         if (flat)
             affine();
         else
@@ -2040,46 +2200,36 @@ struct BoundsBlock {
 }  // namespace detail
 
 // The bounds of many boxes together: what projected_bounds of each, merged, would give, to rounding; a box that is
-// empty or not finite adds nothing. For a w_min that is not positive one by one, and slowly, unless the matrix is
-// affine.
+// empty or not finite adds nothing. Fast where w_min is positive, or the matrix affine; otherwise box by box.
 template <class T>
 [[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, BoxArrays<T> const& boxes, int count,
                                               T w_min) noexcept {
-    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return {};
+    Aabb<T> bounds;
+    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return bounds;
     Mat4<T> const& m = clip_from_world;
     T entry = T(0);
     for (int column = 0; column < 4; ++column)
         for (int r = 0; r < 4; ++r) entry = glm::max(entry, std::abs(m[column][r]));
     bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
-    T const w = m[3][3];
-    bool const in_blocks = entry <= T(1e15) && (flat ? w >= T(1e-15) && w >= w_min : w_min >= T(1e-15));
-    Aabb<T> all;
-    detail::BoundsInLanes<T> lanes;
-    for (int r = 0; r < 3; ++r)
-        for (int i = 0; i < detail::bodies_at_once; ++i) {
-            lanes.lo[r][i] = std::numeric_limits<T>::max();
-            lanes.hi[r][i] = std::numeric_limits<T>::lowest();
-        }
+    bool const ordinary = entry <= T(1e15) && (flat ? m[3][3] >= T(1e-15) && m[3][3] >= w_min : w_min >= T(1e-15));
     constexpr int n = detail::bodies_at_once;
-    for (int begin = 0; begin < count; begin += n) {
-        BoxArrays<T> const block = boxes_from(boxes, begin);
-        int const length = count - begin < n ? count - begin : n;
-        std::uint32_t plain[n] = {}, behind[n] = {};
-        if (in_blocks && length == n) detail::run_widely(detail::BoundsBlock<T>{m, w_min, block, lanes, plain, behind});
-        for (int i = 0; i < length; ++i) {
-            if ((plain[i] | behind[i]) != 0) continue;
-            Aabb<T> const box = box_at(block, i);
-            if (all_finite(box) && !is_empty(box)) all = merge(all, projected_bounds(m, corners(box), w_min));
-        }
-    }
-    Aabb<T> in_lanes;
-    for (int r = 0; r < 3; ++r)
+    int const whole = ordinary && count > 0 ? count / n * n : 0;
+    if (whole > 0) detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, boxes, whole / n, bounds});
+    if (ordinary && count > whole) {
+        // What is left of a block, filled up with empty boxes.
+        T ends[6][n];
         for (int i = 0; i < n; ++i) {
-            in_lanes.lo[r] = glm::min(in_lanes.lo[r], lanes.lo[r][i]);
-            in_lanes.hi[r] = glm::max(in_lanes.hi[r], lanes.hi[r][i]);
+            Aabb<T> const box = whole + i < count ? box_at(boxes, whole + i) : Aabb<T>{Vec3<T>(T(1)), Vec3<T>(T(0))};
+            for (int axis = 0; axis < 3; ++axis) ends[axis][i] = box.lo[axis], ends[axis + 3][i] = box.hi[axis];
         }
-    if (is_empty(in_lanes)) return all;
-    return merge(all, flat ? Aabb<T>{in_lanes.lo / w, in_lanes.hi / w} : in_lanes);
+        BoxArrays<T> const rest{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
+        detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, rest, 1, bounds});
+    }
+    for (int i = ordinary ? count : 0; i < count; ++i) {
+        Aabb<T> const box = box_at(boxes, i);
+        if (all_finite(box) && !is_empty(box)) bounds = merge(bounds, projected_bounds(m, corners(box), w_min));
+    }
+    return bounds;
 }
 
 }  // namespace v0
@@ -2244,15 +2394,17 @@ template <class T>
 // ======== shadowmath/fit_cube.hpp ========
 //
 // A lamp that shines in all directions: six maps, each a spot's, and only those that the eye has a use for. A face is
-// skipped where the view, the receivers or the casters do not reach it; those that remain are zoomed in on what is seen,
-// and their near planes come from their casters.
+// skipped where the view, the receivers or the casters do not reach it; those that remain are zoomed in on what is
+// seen, and their near planes come from their casters.
 //
 //          +---+
 //          |+y |            face    0   1   2   3   4   5
 //      +---+---+---+---+    axis   +x  -x  +y  -y  +z  -z       of the world
 //      |-x |+z |+x |-z |
-//      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D ones
-//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces. They
+//      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D
+// ones
+//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces.
+// They
 //          +---+            are not the layers of a cube texture: those cannot be zoomed in on.
 //
 // Source: six perspective faces are common knowledge; the crop is that of fit_spot.
@@ -5730,6 +5882,12 @@ struct Cover {
     bool complete = false;  // the last one ends within the ratio
 };
 
+template <class T>
+[[nodiscard]] inline T usable_ratio(T const& ratio) noexcept {
+    if (!all_finite(&ratio, 1)) return T(1.05);
+    return ratio < T(1.0001) ? T(1.0001) : (ratio > T(1 << 20) ? T(1 << 20) : ratio);
+}
+
 // A nearer first sample could need ratios beyond 2^20; it joins the first split as it is.
 template <class T>
 [[nodiscard]] inline T first_depth(T lo, T hi) noexcept {
@@ -5778,8 +5936,7 @@ template <class T>
     splits.faults = depths.faults;
     int const most = count < 0 ? 0 : (count > max_splits ? max_splits : count);
     if (most != count) splits.faults |= Fault::count_clamped;
-    T least = all_finite(&least_ratio, 1) ? least_ratio : T(1.05);
-    least = least < T(1.0001) ? T(1.0001) : (least > T(1 << 20) ? T(1 << 20) : least);
+    T const least = detail::usable_ratio(least_ratio);
     if (!all_finite(&least_ratio, 1) || least != least_ratio) splits.faults |= Fault::clamped_option;
     if (depths.counted == 0 || most == 0) return splits;
 
@@ -5815,10 +5972,10 @@ template <class T>
 
 // ======== shadowmath/sdsm.hpp ========
 //
-// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it could
-// see. Indoors, over a plain, down a street they give several times the texels of the best fit to the view volume. Use
-// them when the eye's depth is at hand before the maps are drawn: from a depth prepass, or from the frame before (then
-// widen the boxes by what may have moved).
+// Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it
+// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels, where four tight cascades come to 1.5
+// and four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
+// or from the frame before (then widen the boxes by what may have moved).
 //
 //   eye depths ── sample_splits ── boxes of samples ── fit_samples ── one matrix a split
 //   (pass 1: SampleDepths)          (pass 2: SampleBounds)
@@ -5860,6 +6017,14 @@ template <class T>
     return std::ldexp(std::ceil(mantissa * T(16)), exponent - 4);
 }
 
+namespace detail {
+
+// Cosines of faces that the light runs along: they are taken to stop nothing.
+template <class T>
+inline constexpr T least_along = T(1e-4);
+
+}  // namespace detail
+
 // Metres along the light, from the world origin, at which the rays between the sides lo and hi (light space) enter the
 // box: nothing of it lies before. Never later than the truth, and earlier by what the box's faces rise across the
 // sides. Above the far side of the box for rays that pass it by.
@@ -5869,8 +6034,7 @@ template <class T>
     T entry = -detail::farthest_metres<T>;
     for (int k = 0; k < 3; ++k) {
         T const along = basis.depth[k];
-        // Faces that the light runs along stop nothing.
-        if (!(std::abs(along) > T(1e-4))) continue;
+        if (!(std::abs(along) > detail::least_along<T>)) continue;
         // On a ray world coordinate k is across + along * depth.
         T const x0 = basis.x[k] * lo.x, x1 = basis.x[k] * hi.x, y0 = basis.y[k] * lo.y, y1 = basis.y[k] * hi.y;
         T const face = along > T(0) ? box.lo[k] : box.hi[k];
@@ -5918,7 +6082,9 @@ template <class T>
 template <class T>
 inline void fit_samples_of(Cascade<T>& cascade, SampleRays<T> const& rays, Aabb<T> const& box, Aabb<T> const& casters,
                            SampleFitOptions<T> const& options) noexcept {
-    Aabb<T> const body{box.lo + rays.eye, box.hi + rays.eye};
+    // Receivers are drawn by another pass than the depths were: their places agree to some ulp of a float.
+    T const slack = T(0x1p-18) * largest_of(box);
+    Aabb<T> const body{box.lo + rays.eye - slack, box.hi + rays.eye + slack};
     if (!(largest_of(body) <= farthest_metres<T>)) {
         cascade.map.faults |= Fault::precision_lost;
         return;
@@ -5981,6 +6147,60 @@ template <class T>
         cascades.faults |= cascade.map.faults;
     }
     return cascades;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/stored_depth.hpp ========
+//
+// From what a depth buffer holds to eye depth in metres, for a camera drawn with view_volume.hpp's clip_from_world (or
+// any matrix with the same near, far and convention): one multiplication, addition and division, never the inverse of a
+// view-projection.
+//
+// What it is worth: a float buffer with reversed depth keeps eye depth to an ulp or so at any distance. With depth from
+// 0 to 1 the error grows as depth^2 / z_near: 6 mm at 100 m, 0.6 m at 1000 m for z_near = 0.1 m. The shader's twin is
+// glsl/stored_depth.glsl.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Eye depth = (num_scale * stored + num_offset) / (den_scale * stored + den_offset). The default knows no depth: what
+// it gives lies behind the eye.
+template <class T>
+struct DepthCode {
+    T num_scale = T(0);
+    T num_offset = T(-1);
+    T den_scale = T(0);
+    T den_offset = T(1);
+    T sky = T(1);  // the value that the buffer is cleared to
+};
+
+// "Stored" is in [0, 1] in every convention. A view with faults, and an orthographic one without end, give the default.
+template <class T>
+[[nodiscard]] inline DepthCode<T> depth_code(ViewVolume<T> const& view, ClipSpace clip) noexcept {
+    DepthCode<T> code;
+    code.sky = far_depth<T>(clip);
+    bool const endless = is_positive_infinity(&view.z_far);
+    bool const reversed = clip.depth == DepthOrder::one_to_zero;
+    if (faults_of(view).any()) return code;
+    if (view.kind == ViewKind::perspective) {
+        // Depth from the near end is (far - near) / far * (1 - near / z).
+        T const share = endless ? T(1) : (view.z_far - view.z_near) / view.z_far;
+        T const rest = endless ? T(0) : view.z_near / view.z_far;
+        code = {T(0), view.z_near, reversed ? share : -share, reversed ? rest : T(1), code.sky};
+    } else if (!endless) {
+        T const range = view.z_far - view.z_near;
+        code = {reversed ? -range : range, reversed ? view.z_far : view.z_near, T(0), T(1), code.sky};
+    }
+    return code;
+}
+
+// Metres; for the sky a number beyond every depth. NaN gives NaN, which sample reductions leave out.
+template <class T>
+[[nodiscard]] inline T decoded_depth(DepthCode<T> const& code, T const& stored) noexcept {
+    if (stored == code.sky) return std::numeric_limits<T>::max();
+    return (code.num_scale * stored + code.num_offset) / (code.den_scale * stored + code.den_offset);
 }
 
 }  // namespace v0
@@ -6940,6 +7160,129 @@ template <class T>
         gpu.ranges.end[i] = static_cast<float>(cascades.at[i].range.end);
     }
     return gpu;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/gpu_samples.hpp ========
+//
+// What the compute shaders of a sample-distribution fit are given, laid out as std140 and std430 have it, and what
+// their state looks like: the mirror of glsl/sample_layout.glsl. Nothing of it comes back: the shaders write the maps'
+// matrices to a buffer, and the passes that draw and read the maps take them from there.
+//
+//   GpuSampleFit const fit = gpu_sample_fit(camera, camera_clip, light, width, height, casters, splits, options);
+//   upload as the uniform block; run sdsm_begin, sdsm_depths, sdsm_splits, sdsm_bounds, sdsm_maps.
+
+namespace shadowmath {
+inline namespace v0 {
+
+struct GpuSampleFit {
+    Vec4<float> basis_x;      // w: z_near, metres of eye depth
+    Vec4<float> basis_y;      // w: z_far
+    Vec4<float> basis_depth;  // w: least ratio of a split
+    Vec4<float>
+        inverse_along;       // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
+    Vec4<float> eye;         // in light space; w: texels along a side of the map
+    Vec4<float> forward;     // of the eye, in light space; w: margin as a share of the body's extent
+    Vec4<float> right;       // w: 1 / (usable texels - 1), for still maps
+    Vec4<float> up;          // w: what the depth buffer is cleared to
+    Vec4<float> first_step;  // sides at the centre of pixel (0, 0), and from pixel to pixel
+    Vec4<float> casters_lo;  // world
+    Vec4<float> casters_hi;
+    Vec4<float> depth_code;  // numerator's scale and offset, denominator's scale and offset
+    Vec4<float> bias;        // of BiasOptions: flat_texels, texels, steepest, depth_step
+    Mat4<float> clip_from_canonical{1.0f};
+    std::int32_t width = 0;  // pixels
+    std::int32_t height = 0;
+    std::int32_t count = 0;     // splits; 0 where there is nothing to fit
+    std::int32_t adaptive = 0;  // 1: SampleSplits::adaptive
+    std::int32_t orthographic = 0;
+    std::int32_t still = 0;
+    std::int32_t pancake = 0;
+    std::int32_t unused = 0;
+};
+static_assert(offsetof(GpuSampleFit, clip_from_canonical) == 208 && offsetof(GpuSampleFit, width) == 272 &&
+                  offsetof(GpuSampleFit, orthographic) == 288 && sizeof(GpuSampleFit) == 304,
+              "glsl/sample_layout.glsl");
+
+// The shaders' own: bins and boxes as bits that order as the numbers do. For tests, and to size the buffer.
+struct GpuSampleState {
+    std::uint32_t bin_lo[depth_bins];
+    std::uint32_t bin_hi[depth_bins];
+    std::uint32_t counted;
+    std::uint32_t outside;
+    std::uint32_t not_finite;
+    std::int32_t count;                   // splits
+    Vec4<float> range[max_splits];        // metres of eye depth: begin, blend_begin, end
+    std::uint32_t box_lo[max_splits][4];  // light space relative to the eye
+    std::uint32_t box_hi[max_splits][4];
+};
+static_assert(offsetof(GpuSampleState, range) == 4112 && offsetof(GpuSampleState, box_lo) == 4368 &&
+                  sizeof(GpuSampleState) == 4880,
+              "glsl/sample_layout.glsl");
+
+template <class T>
+struct SampleSplitOptions {
+    int count = 4;
+    SampleSplits kind = SampleSplits::adaptive;
+    T least_ratio = T(1.05);
+    T blend = T(0);
+};
+
+// The maps that the shaders make of these are those of sample_splits and fit_samples at T = float, fed with the same
+// samples, to the last bit (as long as no compiler contracts a product and a sum: -ffp-contract=off, `precise`).
+//
+// `camera` and `camera_clip` are what the depth buffer was drawn with; samples from shadow_distance on get no shadow
+// (0: camera.z_far). Inputs with faults give count = 0, and the shaders make no map.
+[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<float> const& camera, ClipSpace camera_clip,
+                                                 float shadow_distance, Light<float> const& light, int width,
+                                                 int height, Aabb<float> const& casters,
+                                                 SampleSplitOptions<float> const& splits,
+                                                 SampleFitOptions<float> const& options,
+                                                 BiasOptions<float> const& bias = {}) noexcept {
+    GpuSampleFit fit;
+    bool const cut = all_finite(&shadow_distance, 1) && shadow_distance > 0.0f;
+    float const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
+    SampleRays<float> const rays = sample_rays(camera, light, width, height);
+    DepthCode<float> const code = depth_code(camera, camera_clip);
+    Faults const faults = faults_of_margin(options.map_size, options.margin_texels);
+    bool const usable = rays.usable && !no_depths(camera.z_near, z_far).faults.any() && all_finite(casters) &&
+                        !is_empty(casters) && !faults.has(Fault::not_finite) && !faults.has(Fault::map_too_small);
+    if (!usable) return fit;
+
+    float const size = static_cast<float>(options.map_size);
+    float const usable_size = usable_texels(options.map_size, options.margin_texels);
+    constexpr float eps = std::numeric_limits<float>::epsilon();
+    Vec4<float> inverse_along(0.0f);
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(rays.basis.depth[k]) > detail::least_along<float>) inverse_along[k] = 1.0f / rays.basis.depth[k];
+    inverse_along.w = splits.blend > 0.0f ? (splits.blend < 1.0f ? splits.blend : 1.0f) : 0.0f;
+    fit.basis_x = Vec4<float>(rays.basis.x, camera.z_near);
+    fit.basis_y = Vec4<float>(rays.basis.y, z_far);
+    fit.basis_depth = Vec4<float>(rays.basis.depth, detail::usable_ratio(splits.least_ratio));
+    fit.inverse_along = inverse_along;
+    fit.eye = Vec4<float>(rays.eye, size);
+    fit.forward = Vec4<float>(rays.forward, options.still ? 0.0f : 0.5f * (size - usable_size) / usable_size);
+    fit.right = Vec4<float>(rays.right, 1.0f / (usable_size - 1.0f) * (1.0f + 4.0f * eps));
+    fit.up = Vec4<float>(rays.up, code.sky);
+    fit.first_step = Vec4<float>(rays.first.x, rays.first.y, rays.step.x, rays.step.y);
+    Vec3<float> const farthest(detail::farthest_metres<float>);
+    Aabb<float> const reached = intersect(casters, Aabb<float>{-farthest, farthest});
+    fit.casters_lo = Vec4<float>(reached.lo, 0.0f);
+    fit.casters_hi = Vec4<float>(reached.hi, 0.0f);
+    fit.depth_code = Vec4<float>(code.num_scale, code.num_offset, code.den_scale, code.den_offset);
+    fit.bias = Vec4<float>(detail::option(bias.flat_texels, 0.0f), detail::option(bias.texels, 0.0f),
+                           detail::option(bias.steepest, 20.0f), detail::option(bias.depth_step, 0.0f));
+    fit.clip_from_canonical = clip_from_canonical<float>(options.clip);
+    fit.width = width;
+    fit.height = height;
+    fit.count = splits.count < 0 ? 0 : (splits.count > max_splits ? max_splits : splits.count);
+    fit.adaptive = splits.kind == SampleSplits::adaptive ? 1 : 0;
+    fit.orthographic = rays.kind == ViewKind::orthographic ? 1 : 0;
+    fit.still = options.still ? 1 : 0;
+    fit.pancake = options.pancake ? 1 : 0;
+    return fit;
 }
 
 }  // namespace v0

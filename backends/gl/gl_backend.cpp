@@ -2,6 +2,7 @@
 #include "backends/gl/gl_backend.hpp"
 
 #include "backends/constants.hpp"
+#include "backends/gl/compute.hpp"
 #include "backends/gl/context.hpp"
 #include "backends/gl/listen.hpp"
 #include "backends/gl/objects.hpp"
@@ -24,7 +25,7 @@ using namespace gl;
 struct Resources {
     explicit Resources(Procs const& gl)
         : vertices(make_buffer(gl)), indices(make_buffer(gl)), numbers(make_buffer(gl)), constants(make_buffer(gl)),
-          draws(make_buffer(gl)), geometry(make_vertex_array(gl)),
+          draws(make_buffer(gl)), geometry(make_vertex_array(gl)), compute(gl),
           depth(make_program(gl, {{GL_VERTEX_SHADER, shaders::depth_vert}})),
           depth_clones(make_program(
               gl, {{GL_VERTEX_SHADER, shaders::depth_clones_vert}, {GL_GEOMETRY_SHADER, shaders::depth_clones_geom}})),
@@ -41,6 +42,7 @@ struct Resources {
 
     Buffer vertices, indices, numbers, constants, draws;
     VertexArray geometry;
+    Compute compute;
     Program depth, depth_clones, depth_instances, receive;  // depth_instances: 0 where the driver has no such shaders
     std::optional<Statistics> statistics;
 
@@ -48,6 +50,10 @@ struct Resources {
     Framebuffer map_target;
     Texture colour, position, normal, frame_depth;  // the last frame
     Framebuffer frame_target;
+
+    Texture eye_depth;  // what the last fit looked at: an array of one layer
+    Framebuffer eye_target;
+    std::optional<Storage> fit_state, fitted_maps;
 };
 
 class GlBackend final : public Backend {
@@ -103,6 +109,7 @@ public:
     DrawWork draw_depth(DepthPass const& pass) override {
         demand_none(fault_of(pass, objects_.size()));
         demand_none(fault_of(pass.way, ways()));
+        demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
         Current const current(*context_);
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
 
@@ -111,12 +118,14 @@ public:
         constants.set(pass.layers);
         return timed(work_of(pass.way, groups), [&] {
             write_constants(constants);
+            if (pass.fitted) take_fitted(Constants::copies_of_maps(pass.layers.size()));
             for (DrawGroup const& group : groups) draw_group(pass, group);
         });
     }
 
     DrawWork draw_scene(ScenePass const& pass) override {
         demand_none(fault_of(pass, layers_));
+        demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
         Current const current(*context_);
         prepare_frame(pass.extent);
 
@@ -125,6 +134,7 @@ public:
         constants.set(views);
         return timed(work_of(views), [&] {
             write_constants(constants);
+            if (pass.fitted) take_fitted(Constants::copies_of_frames(views.size()));
             clear_frame(pass.frame.sky);
             begin_view();
             for (std::size_t i = 0; i < views.size(); ++i) draw_view(views[i], i);
@@ -156,6 +166,26 @@ public:
         });
     }
 
+    DrawWork fit_maps(FitPass const& pass) override {
+        demand_none(fault_of(pass));
+        Current const current(*context_);
+        prepare_fit(pass);
+
+        ViewDraw eye;
+        for (Object const& object : objects_) append(eye.draws, object);
+        DepthLayer const layer{pass.clip_from_world, {}};
+        Constants constants;
+        constants.set(std::span(&layer, 1));
+        return timed(work_of(std::span(&eye, 1)), [&] {
+            write_constants(constants);
+            draw_eye_depth(pass.extent, eye.draws);
+            gl_->BindTextureUnit(3, resources_->eye_depth);
+            for (ComputeStep const& step : pass.steps)
+                resources_->compute.run(
+                    {step.shader, step.groups, {*resources_->fit_state, *resources_->fitted_maps}, {}, pass.constants});
+        });
+    }
+
     Image<float> read_depth(int layer) override {
         if (layer < 0 || layer >= layers_)
             throw std::runtime_error("read_depth: layer " + std::to_string(layer) + " of " + std::to_string(layers_));
@@ -177,6 +207,23 @@ public:
         read(resources_->position, GL_FLOAT, frame.position);
         read(resources_->normal, GL_FLOAT, frame.normal);
         return frame;
+    }
+
+    Image<float> read_eye_depth() override {
+        Current const current(*context_);
+        Image<float> image(fit_extent_);
+        if (!image.pixels.empty())
+            gl_->GetTextureImage(resources_->eye_depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, byte_count(image),
+                                 image.pixels.data());
+        return image;
+    }
+
+    std::vector<MapConstants> read_fit() override {
+        demand_none(fault_of_fitted(true, resources_->fitted_maps.has_value()));
+        Current const current(*context_);
+        std::vector<MapConstants> maps(max_maps);
+        resources_->compute.read(*resources_->fitted_maps, std::as_writable_bytes(std::span(maps)));
+        return maps;
     }
 
     std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
@@ -240,6 +287,43 @@ private:
         demand_complete(resources_->frame_target,
                         "a frame of " + std::to_string(extent.width) + " x " + std::to_string(extent.height));
         extent_ = extent;
+    }
+
+    void prepare_fit(FitPass const& pass) {
+        if (pass.extent.width != fit_extent_.width || pass.extent.height != fit_extent_.height) {
+            fit_extent_ = {};
+            resources_->eye_depth = make_texture(*gl_, GL_TEXTURE_2D_ARRAY);
+            gl_->TextureStorage3D(resources_->eye_depth, 1, GL_DEPTH_COMPONENT32F, pass.extent.width,
+                                  pass.extent.height, 1);
+            gl_->TextureParameteri(resources_->eye_depth, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            gl_->TextureParameteri(resources_->eye_depth, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+            resources_->eye_target = make_framebuffer(*gl_);
+            gl_->NamedFramebufferTextureLayer(resources_->eye_target, GL_DEPTH_ATTACHMENT, resources_->eye_depth, 0, 0);
+            demand_complete(resources_->eye_target, "the depth that the eye sees");
+            fit_extent_ = pass.extent;
+        }
+        if (!resources_->fit_state || state_bytes_ != pass.state_bytes)
+            resources_->fit_state = resources_->compute.make_storage(pass.state_bytes);
+        state_bytes_ = pass.state_bytes;
+        if (!resources_->fitted_maps && !pass.steps.empty())
+            resources_->fitted_maps = resources_->compute.make_storage(max_maps * sizeof(MapConstants));
+    }
+
+    void draw_eye_depth(Extent extent, std::span<Draw const> draws) const {
+        constexpr float nothing = 0.0f;
+        begin(resources_->eye_target, extent, resources_->depth);
+        bind_constants<MapBlock>(Constants::offset_of_map(0));
+        gl_->ClearNamedFramebufferfv(resources_->eye_target, GL_DEPTH, 0, &nothing);
+        gl_->DepthFunc(GL_GREATER);
+        draw(draws);
+        gl_->DepthFunc(GL_LESS);
+    }
+
+    void take_fitted(std::vector<BlockCopy> const& copies) const {
+        GLuint const from = resources_->compute.buffer(*resources_->fitted_maps);
+        for (BlockCopy const& copy : copies)
+            gl_->CopyNamedBufferSubData(from, resources_->constants, static_cast<GLintptr>(copy.from),
+                                        static_cast<GLintptr>(copy.to), static_cast<GLsizeiptr>(copy.size));
     }
 
     void demand_complete(GLuint framebuffer, std::string const& what) const {
@@ -336,7 +420,8 @@ private:
     std::vector<Object> objects_;
     int map_size_ = 0;
     int layers_ = 0;
-    Extent extent_;
+    Extent extent_, fit_extent_;
+    std::size_t state_bytes_ = 0;
 };
 
 }  // namespace

@@ -22,8 +22,8 @@
     X(DeleteShader)                                                                                                 \
     X(CreateProgram) X(AttachShader) X(LinkProgram) X(GetProgramiv) X(GetProgramInfoLog) X(UseProgram)              \
     X(DeleteProgram)                                                                                                \
-    X(CreateBuffers) X(NamedBufferData) X(NamedBufferSubData) X(GetNamedBufferSubData) X(BindBuffer)                \
-    X(BindBufferBase) X(BindBufferRange) X(DeleteBuffers)                                                           \
+    X(CreateBuffers) X(NamedBufferData) X(NamedBufferSubData) X(GetNamedBufferSubData) X(CopyNamedBufferSubData)    \
+    X(BindBuffer) X(BindBufferBase) X(BindBufferRange) X(DeleteBuffers)                                             \
     X(CreateVertexArrays) X(VertexArrayVertexBuffer) X(VertexArrayElementBuffer) X(EnableVertexArrayAttrib)         \
     X(VertexArrayAttribFormat) X(VertexArrayAttribIFormat) X(VertexArrayAttribBinding) X(VertexArrayBindingDivisor) \
     X(BindVertexArray) X(DeleteVertexArrays)                                                                        \

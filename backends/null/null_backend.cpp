@@ -38,7 +38,8 @@ void NullBackend::upload(Scene const& scene) {
 
 DrawWork NullBackend::draw_depth(DepthPass const& pass) {
     calls_.emplace_back(record(pass));
-    bool const accepted = accept(fault_of(pass, objects_.size()));
+    bool const accepted =
+        accept(fault_of(pass, objects_.size())) && accept(fault_of_fitted(pass.fitted, there_is_a_fit_));
     map_size_ = accepted ? pass.map_size : 0;
     layers_ = accepted ? static_cast<int>(pass.layers.size()) : 0;
     return accepted ? work_of(pass.way, plan_draws(pass, objects_)) : DrawWork{};
@@ -46,7 +47,7 @@ DrawWork NullBackend::draw_depth(DepthPass const& pass) {
 
 DrawWork NullBackend::draw_scene(ScenePass const& pass) {
     calls_.emplace_back(DrawSceneCall{pass});
-    bool const accepted = accept(fault_of(pass, layers_));
+    bool const accepted = accept(fault_of(pass, layers_)) && accept(fault_of_fitted(pass.fitted, there_is_a_fit_));
     extent_ = accepted ? pass.extent : Extent{};
     sky_ = pass.frame.sky;
     return accepted ? work_of(plan_view(pass, objects_)) : DrawWork{};
@@ -60,6 +61,27 @@ DrawWork NullBackend::draw_split_by_split(DepthPass const& maps, ScenePass const
     extent_ = accepted ? view.extent : Extent{};
     sky_ = view.frame.sky;
     return accepted ? work_of(plan_split_by_split(maps, view, objects_)) : DrawWork{};
+}
+
+DrawWork NullBackend::fit_maps(FitPass const& pass) {
+    calls_.emplace_back(FitMapsCall{pass.extent, pass.steps.size()});
+    bool const accepted = accept(fault_of(pass));
+    fit_extent_ = accepted ? pass.extent : Extent{};
+    there_is_a_fit_ = accepted && !pass.steps.empty();
+    ViewDraw eye;
+    for (Object const& object : objects_) append(eye.draws, object);
+    return accepted ? work_of(std::span(&eye, 1)) : DrawWork{};
+}
+
+Image<float> NullBackend::read_eye_depth() {
+    calls_.emplace_back(ReadEyeDepthCall{});
+    return Image<float>(fit_extent_, 0.0f);
+}
+
+std::vector<MapConstants> NullBackend::read_fit() {
+    calls_.emplace_back(ReadFitCall{});
+    accept(fault_of_fitted(true, there_is_a_fit_));
+    return std::vector<MapConstants>(max_maps);
 }
 
 Image<float> NullBackend::read_depth(int layer) {

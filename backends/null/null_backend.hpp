@@ -36,8 +36,15 @@ struct ReadDepthCall {
     int layer = 0;
 };
 struct ReadFrameCall {};
+struct FitMapsCall {
+    Extent extent;
+    std::size_t step_count = 0;
+};
+struct ReadEyeDepthCall {};
+struct ReadFitCall {};
 
-using Call = std::variant<UploadCall, DrawDepthCall, DrawSceneCall, DrawSplitBySplitCall, ReadDepthCall, ReadFrameCall>;
+using Call = std::variant<UploadCall, DrawDepthCall, DrawSceneCall, DrawSplitBySplitCall, FitMapsCall, ReadDepthCall,
+                          ReadFrameCall, ReadEyeDepthCall, ReadFitCall>;
 
 class NullBackend final : public Backend {
 public:
@@ -47,8 +54,11 @@ public:
     DrawWork draw_depth(DepthPass const& pass) override;
     DrawWork draw_scene(ScenePass const& pass) override;
     DrawWork draw_split_by_split(DepthPass const& maps, ScenePass const& view) override;
+    DrawWork fit_maps(FitPass const& pass) override;
     [[nodiscard]] Image<float> read_depth(int layer) override;
     [[nodiscard]] Frame read_frame() override;
+    [[nodiscard]] Image<float> read_eye_depth() override;
+    [[nodiscard]] std::vector<MapConstants> read_fit() override;
     [[nodiscard]] std::vector<std::string> take_messages() override;
 
     [[nodiscard]] std::vector<Call> const& calls() const noexcept { return calls_; }
@@ -61,7 +71,8 @@ private:
     std::vector<Object> objects_;
     int map_size_ = 0;
     int layers_ = 0;
-    Extent extent_;
+    bool there_is_a_fit_ = false;
+    Extent extent_, fit_extent_;
     glm::vec4 sky_{0.0f};
 };
 

@@ -7,7 +7,6 @@ const int choose_by_depth = 0;
 
 struct MapConstants {
     mat4 clip_from_world;
-    float depth_begin;
     float depth_end;
     float blend_begin;
     float w_min;

@@ -26,33 +26,36 @@ sm_ShadowMap shadow_map(int map) {
 }
 
 float map_visibility(int map, vec3 point, vec3 normal) {
-    if (map < 0) return 1.0;
     return sm_visibility(depths, map, shadow_map(map), int(frame.map_size), point, normal, bias_of(map),
                          frame.filter_radius, frame.tap_plane == 1);
 }
 
 // The first map that reaches past the point, blended into the next one near its end; the last one blends into light.
-Shadow shadow_by_depth(vec3 point, vec3 normal, float eye_depth) {
+sm_LookUp look_up_by_depth(float eye_depth) {
     sm_Ranges ranges;
     for (int map = 0; map < frame.map_count; ++map) {
         ranges.blend_begin[map >> 2][map & 3] = frame.maps[map].blend_begin;
         ranges.end[map >> 2][map & 3] = frame.maps[map].depth_end;
     }
-    sm_LookUp look_up = sm_by_depth(ranges, frame.map_count, eye_depth);
-    float here = map_visibility(look_up.first, point, normal);
-    float next = look_up.blend > 0.0 ? map_visibility(look_up.second, point, normal) : 1.0;
-    return Shadow(look_up.first, sm_blended(look_up, here, next));
+    return sm_by_depth(ranges, frame.map_count, eye_depth);
 }
 
 // The first map that holds the point and every texel that its filter touches.
-Shadow shadow_by_map(vec3 point, vec3 normal) {
+sm_LookUp look_up_by_map(vec3 point) {
     float margin_texels = float(frame.filter_radius + 1);
     for (int map = 0; map < frame.map_count; ++map)
-        if (sm_contains(shadow_map(map), int(frame.map_size), margin_texels, point))
-            return Shadow(map, map_visibility(map, point, normal));
-    return Shadow(-1, 1.0);
+        if (sm_contains(shadow_map(map), int(frame.map_size), margin_texels, point)) return sm_LookUp(map, -1, 0.0);
+    return sm_LookUp(-1, -1, 0.0);
 }
 
 Shadow shadow_at(vec3 point, vec3 normal, float eye_depth) {
-    return frame.choice == choose_by_depth ? shadow_by_depth(point, normal, eye_depth) : shadow_by_map(point, normal);
+    sm_LookUp look_up = sm_LookUp(-1, -1, 0.0);
+    if (frame.choice == choose_by_depth) look_up = look_up_by_depth(eye_depth);
+    else look_up = look_up_by_map(point);
+    // A loop, so that the filter stands in the shader once: software drivers walk through both sides of every branch.
+    vec2 lit = vec2(1.0);
+    int reads = look_up.first < 0 ? 0 : (look_up.second < 0 ? 1 : 2);
+    for (int i = 0; i < reads; ++i)
+        lit[i] = map_visibility(i == 0 ? look_up.first : look_up.second, point, normal);
+    return Shadow(look_up.first, sm_blended(look_up, lit.x, lit.y));
 }

@@ -9,6 +9,7 @@
 #include "backends/vk/objects.hpp"
 
 #include <map>
+#include <span>
 #include <vector>
 
 namespace shadowmath::backend::vk {
@@ -27,7 +28,9 @@ public:
         std::vector<Buffer> uniforms;
         std::vector<DescriptorPool> descriptors;
     };
-    void record(VkCommandBuffer commands, Dispatch const& pass, Recorded& kept);
+    // `after` are bound behind the pass's own textures: arrays that someone else keeps, in the layout of computed_with.
+    void record(VkCommandBuffer commands, Dispatch const& pass, Recorded& kept,
+                std::span<VkImageView const> after = {});
 
     [[nodiscard]] VkBuffer buffer(Storage storage) const { return buffers_.at(std::size_t(storage)).handle; }
 
@@ -42,7 +45,7 @@ private:
         ImageView view;
     };
 
-    [[nodiscard]] Kernel const& kernel(Dispatch const& pass);
+    [[nodiscard]] Kernel const& kernel(Dispatch const& pass, std::span<VkDescriptorType const> bindings);
 
     Device const& device_;
     Commands const& commands_;

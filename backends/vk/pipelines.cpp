@@ -78,6 +78,7 @@ struct Recipe {
     Attributes attributes;
     std::uint32_t colours;
     bool depth_clamp;
+    VkCompareOp nearer = VK_COMPARE_OP_LESS;
 };
 
 Pipeline make_pipeline(VkDevice device, VkPipelineLayout layout, Recipe const& recipe) {
@@ -111,7 +112,7 @@ Pipeline make_pipeline(VkDevice device, VkPipelineLayout layout, Recipe const& r
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_LESS;
+    depth.depthCompareOp = recipe.nearer;
     VkPipelineColorBlendAttachmentState write_all{};
     write_all.colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
@@ -164,6 +165,7 @@ Pipelines::Pipelines(Device const& device)
     ShaderModule const depth_vert = make_shader(device_, shaders::depth_vert.spirv);
     std::array<Stage, 1> const one_map{{{VK_SHADER_STAGE_VERTEX_BIT, depth_vert}}};
     per_map = make_depth_pipelines(device_, layout, one_map, depth_pass, position_alone);
+    eye_depth = make_pipeline(device_, layout, {one_map, depth_pass, position_alone, 0, false, VK_COMPARE_OP_GREATER});
 
     if (device.abilities().geometry_shader) {
         ShaderModule const vert = make_shader(device_, shaders::depth_clones_vert.spirv);

@@ -32,6 +32,18 @@ Maps make_maps(Device const& device, Pipelines const& pipelines, int size, int l
     return maps;
 }
 
+EyeDepth make_eye_depth(Device const& device, Pipelines const& pipelines, Extent extent) {
+    EyeDepth eye;
+    constexpr auto usage =
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    eye.target = make_target(device, {depth_format, extent, 1, usage}, "the depth that the eye sees");
+    eye.drawn = make_view(device.get(), eye.target, depth_format, VK_IMAGE_VIEW_TYPE_2D, 0, 1);
+    eye.array = make_view(device.get(), eye.target, depth_format, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, 1);
+    eye.framebuffer = make_framebuffer(device.get(), pipelines.depth_pass, extent, {eye.drawn.address(), 1});
+    eye.extent = extent;
+    return eye;
+}
+
 FrameTargets make_frame(Device const& device, Pipelines const& pipelines, Extent extent) {
     FrameTargets frame;
     auto const make = [&](Target& target, ImageView& view, VkFormat format, VkImageUsageFlags usage) {

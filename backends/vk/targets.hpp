@@ -30,6 +30,15 @@ struct FrameTargets {
     Extent extent;
 };
 
+// The depth that the eye sees, for compute shaders.
+struct EyeDepth {
+    Target target;
+    ImageView drawn, array;
+    Framebuffer framebuffer;
+    Extent extent;
+};
+
+[[nodiscard]] EyeDepth make_eye_depth(Device const& device, Pipelines const& pipelines, Extent extent);
 [[nodiscard]] Maps make_maps(Device const& device, Pipelines const& pipelines, int size, int layers, int views_at_once,
                              VkImageUsageFlags usage);
 [[nodiscard]] FrameTargets make_frame(Device const& device, Pipelines const& pipelines, Extent extent);

@@ -5,6 +5,7 @@
 #include "backends/pass_check.hpp"
 #include "backends/vk/barrier.hpp"
 #include "backends/vk/commands.hpp"
+#include "backends/vk/compute.hpp"
 #include "backends/vk/descriptors.hpp"
 #include "backends/vk/statistics.hpp"
 #include "backends/vk/targets.hpp"
@@ -14,6 +15,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -27,8 +29,9 @@ public:
     explicit VulkanBackend(VulkanOptions const& options)
         : mistake_(options.mistake), device_(options),
           views_at_once_(std::min(device_.abilities().views_at_once, std::uint32_t{max_maps})), pipelines_(device_),
-          commands_(device_), statistics_(device_),
-          constants_(make_host_buffer(device_, sizeof(Constants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
+          commands_(device_), compute_(device_, commands_), statistics_(device_),
+          constants_(make_host_buffer(device_, sizeof(Constants),
+                                      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
           numbers_(make_host_buffer(device_, sizeof(instance_numbers), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
           descriptors_(device_.get(), pipelines_.set_layout, constants_, sizeof(FrameBlock)) {
         std::memcpy(numbers_.mapped, instance_numbers.data(), sizeof(instance_numbers));
@@ -59,6 +62,7 @@ public:
     DrawWork draw_depth(DepthPass const& pass) override {
         demand_none(fault_of(pass, objects_.size()));
         demand_none(fault_of(pass.way, ways()));
+        demand_none(fault_of_fitted(pass.fitted, fitted_maps_.has_value()));
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
         bool const multiview = pass.way == DrawWay::multiview;
         std::uint32_t const at_once = multiview ? views_at_once_ : std::uint32_t{max_maps};
@@ -69,6 +73,7 @@ public:
             mistake_ == VulkanMistake::depth_pass_without_barrier ? unsynchronised_from(depth_drawn) : depth_drawn;
         return timed(work_of(pass.way, groups), [&](VkCommandBuffer commands) {
             std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            if (pass.fitted) take_fitted(commands, Constants::copies_of_maps(pass.layers.size(), at_once));
             hand_over(commands, maps_.target, fresh, depth_drawn);
             if (multiview) clear_maps(commands);
             for (DrawGroup const& group : groups) draw_group(commands, pass, group);
@@ -78,12 +83,14 @@ public:
 
     DrawWork draw_scene(ScenePass const& pass) override {
         demand_none(fault_of(pass, maps_.layers));
+        demand_none(fault_of_fitted(pass.fitted, fitted_maps_.has_value()));
         prepare_frame(pass.extent);
         std::vector<ViewDraw> const views = plan_view(pass, objects_);
         Constants constants;
         constants.set(views);
         return timed(work_of(views), [&](VkCommandBuffer commands) {
             std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            if (pass.fitted) take_fitted(commands, Constants::copies_of_frames(views.size()));
             begin_view(commands, pass.frame.sky);
             for (std::size_t i = 0; i < views.size(); ++i) draw_view(commands, views[i], i);
             vkCmdEndRenderPass(commands);
@@ -116,6 +123,29 @@ public:
                 vkCmdEndRenderPass(commands);
             }
             finish_view(commands);
+        });
+    }
+
+    DrawWork fit_maps(FitPass const& pass) override {
+        demand_none(fault_of(pass));
+        prepare_fit(pass);
+        ViewDraw eye;
+        for (Object const& object : objects_) append(eye.draws, object);
+        DepthLayer const layer{pass.clip_from_world, {}};
+        Constants constants;
+        constants.set(std::span(&layer, 1));
+        Compute::Recorded kept;
+        return timed(work_of(std::span(&eye, 1)), [&](VkCommandBuffer commands) {
+            std::memcpy(constants_.mapped, &constants, sizeof(constants));
+            hand_over(commands, eye_.target, fresh, depth_drawn);
+            VkClearValue const nothing{};
+            begin(commands, pipelines_.depth_pass, eye_.framebuffer, eye_.extent, {&nothing, 1}, pipelines_.eye_depth);
+            draw(commands, Constants::offset_of_map(0), eye.draws);
+            vkCmdEndRenderPass(commands);
+            hand_over(commands, eye_.target, depth_drawn, computed_with);
+            for (ComputeStep const& step : pass.steps)
+                compute_.record(commands, {step.shader, step.groups, {*fit_state_, *fitted_maps_}, {}, pass.constants},
+                                kept, {eye_.array.address(), 1});
         });
     }
 
@@ -155,6 +185,27 @@ public:
         std::memcpy(frame.normal.pixels.data(), bytes + geometry, geometry);
         std::memcpy(frame.colour.pixels.data(), bytes + 2 * geometry, byte_count(frame.colour));
         return frame;
+    }
+
+    Image<float> read_eye_depth() override {
+        Image<float> image(eye_.extent);
+        if (image.pixels.empty()) return image;
+        Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        commands_.submit([&](VkCommandBuffer commands) {
+            hand_over(commands, eye_.target, computed_with, copied_from);
+            copy(commands, eye_.target, 0, image.extent, staging, 0);
+            hand_over(commands, eye_.target, copied_from, computed_with);
+            finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+        });
+        std::memcpy(image.pixels.data(), staging.mapped, byte_count(image));
+        return image;
+    }
+
+    std::vector<MapConstants> read_fit() override {
+        demand_none(fault_of_fitted(true, fitted_maps_.has_value()));
+        std::vector<MapConstants> maps(max_maps);
+        compute_.read(*fitted_maps_, std::as_writable_bytes(std::span(maps)));
+        return maps;
     }
 
     std::vector<std::string> take_messages() override { return std::exchange(device_.messages, {}); }
@@ -216,6 +267,22 @@ private:
     void prepare_frame(Extent extent) {
         if (extent.width == frame_.extent.width && extent.height == frame_.extent.height) return;
         frame_ = make_frame(device_, pipelines_, extent);
+    }
+
+    void prepare_fit(FitPass const& pass) {
+        if (pass.extent.width != eye_.extent.width || pass.extent.height != eye_.extent.height)
+            eye_ = make_eye_depth(device_, pipelines_, pass.extent);
+        if (!fit_state_ || state_bytes_ != pass.state_bytes) fit_state_ = compute_.make_storage(pass.state_bytes);
+        state_bytes_ = pass.state_bytes;
+        if (!fitted_maps_ && !pass.steps.empty()) fitted_maps_ = compute_.make_storage(max_maps * sizeof(MapConstants));
+    }
+
+    void take_fitted(VkCommandBuffer commands, std::span<BlockCopy const> copies) const {
+        std::vector<VkBufferCopy> regions;
+        for (BlockCopy const& copy : copies) regions.push_back({copy.from, copy.to, copy.size});
+        vkCmdCopyBuffer(commands, compute_.buffer(*fitted_maps_), constants_.handle,
+                        static_cast<std::uint32_t>(regions.size()), regions.data());
+        finish_copies(commands, VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT, VK_ACCESS_UNIFORM_READ_BIT);
     }
 
     // A positive viewport: NDC y = -1 is row 0, as in the other backends.
@@ -365,6 +432,7 @@ private:
     std::uint32_t views_at_once_;
     Pipelines pipelines_;
     Commands commands_;
+    Compute compute_;
     Statistics statistics_;
     Buffer constants_, numbers_;
     Descriptors descriptors_;
@@ -372,6 +440,9 @@ private:
     std::vector<Object> objects_;
     Maps maps_;
     FrameTargets frame_;
+    EyeDepth eye_;
+    std::optional<Storage> fit_state_, fitted_maps_;
+    std::size_t state_bytes_ = 0;
 };
 
 }  // namespace

@@ -24,16 +24,16 @@ void finish_pass(VkCommandBuffer commands) {
                          &barrier, 0, nullptr, 0, nullptr);
 }
 
-std::vector<VkDescriptorType> bindings_of(Dispatch const& pass) {
+std::vector<VkDescriptorType> bindings_of(Dispatch const& pass, std::size_t more_textures) {
     std::vector<VkDescriptorType> types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
     types.insert(types.end(), pass.storage.size(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-    types.insert(types.end(), pass.textures.size(), VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    types.insert(types.end(), pass.textures.size() + more_textures, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     return types;
 }
 
-SetLayout make_set_layout(VkDevice device, Dispatch const& pass) {
+SetLayout make_set_layout(VkDevice device, std::span<VkDescriptorType const> types) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (VkDescriptorType const type : bindings_of(pass))
+    for (VkDescriptorType const type : types)
         bindings.push_back(
             {static_cast<std::uint32_t>(bindings.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     return vk::make_set_layout(device, bindings);
@@ -118,22 +118,24 @@ Texture2DArray Compute::make_texture(Extent extent, int layers, std::span<float 
     return Texture2DArray(textures_.size() - 1);
 }
 
-Compute::Kernel const& Compute::kernel(Dispatch const& pass) {
+Compute::Kernel const& Compute::kernel(Dispatch const& pass, std::span<VkDescriptorType const> bindings) {
     auto const known = kernels_.find(pass.shader);
     if (known != kernels_.end()) return known->second;
     Kernel made;
-    made.set_layout = make_set_layout(device_.get(), pass);
+    made.set_layout = make_set_layout(device_.get(), bindings);
     made.layout = make_layout(device_.get(), made.set_layout);
     made.pipeline = make_pipeline(device_.get(), made.layout, *pass.shader);
     return kernels_.emplace(pass.shader, std::move(made)).first->second;
 }
 
-void Compute::record(VkCommandBuffer commands, Dispatch const& pass, Recorded& kept) {
-    Kernel const& kernel_of_pass = kernel(pass);
-    VkDescriptorPoolSize const sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_storage_blocks},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, static_cast<std::uint32_t>(pass.textures.size()) + 1}};
+void Compute::record(VkCommandBuffer commands, Dispatch const& pass, Recorded& kept,
+                     std::span<VkImageView const> after) {
+    std::vector<VkDescriptorType> const bindings = bindings_of(pass, after.size());
+    Kernel const& kernel_of_pass = kernel(pass, bindings);
+    VkDescriptorPoolSize const sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_storage_blocks},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                           static_cast<std::uint32_t>(pass.textures.size() + after.size()) + 1}};
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
@@ -160,8 +162,9 @@ void Compute::record(VkCommandBuffer commands, Dispatch const& pass, Recorded& k
     std::vector<VkDescriptorImageInfo> images;
     for (Texture2DArray const texture : pass.textures)
         images.push_back({sampler_, textures_.at(std::size_t(texture)).view, computed_with.layout});
+    for (VkImageView const view : after) images.push_back({sampler_, view, computed_with.layout});
     std::vector<VkWriteDescriptorSet> writes;
-    for (VkDescriptorType const type : bindings_of(pass)) {
+    for (VkDescriptorType const type : bindings) {
         std::size_t const binding = writes.size();
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

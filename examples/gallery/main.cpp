@@ -132,6 +132,19 @@ void write_text(std::filesystem::path const& path, std::string const& text) {
     if (!file) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
+// "; egl, osmesa, vulkan: 0 of 12441600 pixels unlike"
+std::string agreement(Backends backends, Results const& results) {
+    if (backends.size() < 2) return {};
+    std::string names;
+    for (auto const& backend : backends) names += (names.empty() ? "; " : ", ") + backend->info().name;
+    long unlike = 0, pixels = 0;
+    for (Parity const& parity : results.parity) {
+        unlike += parity.unlike_pixels;
+        pixels += parity.pixels;
+    }
+    return names + ": " + std::to_string(unlike) + " of " + std::to_string(pixels) + " pixels unlike";
+}
+
 void make_gallery(Settings const& settings) {
     Staging staging(settings.out);
     auto const scenes = load_scenes(settings);
@@ -141,7 +154,7 @@ void make_gallery(Settings const& settings) {
     write_text(staging.folder() / "results.json", json);
     write_text(staging.folder() / "index.html", page(techniques(settings.quick), results, json));
     staging.publish();
-    tell("wrote " + (settings.out / "index.html").string());
+    tell("wrote " + (settings.out / "index.html").string() + agreement(backends, results));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <optional>
 #include <thread>
 
 namespace shadowmath::gallery {
@@ -35,6 +36,53 @@ Json to_json(Record const& r) {
             {"unlike_first_backend_fraction", r.unlike_first_backend_fraction},
             {"splits", r.splits},
             {"note", r.note}};
+}
+
+Json to_json(std::optional<backend::DriverCount> const& counted) {
+    if (!counted) return nullptr;
+    return {{"vertices", counted->vertices},
+            {"triangles", counted->triangles},
+            {"vertex_runs", counted->vertex_runs},
+            {"geometry_runs", counted->geometry_runs},
+            {"geometry_triangles", counted->geometry_triangles},
+            {"clipper_triangles", counted->clipper_triangles},
+            {"raster_triangles", counted->raster_triangles}};
+}
+
+Json to_json(WayRecord const& w) {
+    return {{"scene", w.scene},
+            {"view", w.view},
+            {"backend", w.backend},
+            {"way", w.way},
+            {"with_picture", w.with_picture},
+            {"map_size", w.map_size},
+            {"maps", w.maps},
+            {"maps_in_memory", w.maps_in_memory},
+            {"passes", w.work.passes},
+            {"draw_calls", w.work.draw_calls},
+            {"vertices", w.work.vertices},
+            {"triangles", w.work.triangles},
+            {"driver", to_json(w.work.driver)},
+            {"milliseconds", w.work.milliseconds},
+            {"texels", w.texels},
+            {"unlike_texels", w.unlike_texels},
+            {"largest_difference", w.largest_difference},
+            {"pixels", w.pixels},
+            {"unlike_pixels", w.unlike_pixels}};
+}
+
+Json to_json(Parity const& p) {
+    return {{"scene", p.scene},
+            {"backend", p.backend},
+            {"pictures", p.pictures},
+            {"maps", p.maps},
+            {"covered_texels", p.covered_texels},
+            {"covered_in_one", p.covered_in_one},
+            {"unlike_texels", p.unlike_texels},
+            {"largest_ulp", p.largest_ulp},
+            {"pixels", p.pixels},
+            {"unlike_pixels", p.unlike_pixels},
+            {"unlike_off_edges", p.unlike_off_edges}};
 }
 
 Json to_json(Claim const& c) {
@@ -142,6 +190,8 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
 
     Json const document = {
         {"records", list(results.records)},
+        {"ways", list(results.ways)},
+        {"parity", list(results.parity)},
         {"claims", list(results.claims)},
         {"close_ups", list(results.close_ups)},
         {"machine", {{"backends", drivers}, {"threads", std::thread::hardware_concurrency()}}},
@@ -150,6 +200,7 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
           {"height", settings.extent.height},
           {"quick", settings.quick},
           {"seed", settings.seed},
+          {"way_runs", settings.way_runs()},
           {"filter_radius", filter_radius},
           {"edge_radius_pixels", 1.25}}},
         {"techniques", list(techniques(settings.quick))},

@@ -9,7 +9,8 @@
 
 namespace shadowmath::gallery {
 
-// {"records": [...], "claims": [...], "machine": {...}, "settings": {...}, "techniques": [...], "scenes": [...]}
+// {"records": [...], "ways": [...], "parity": [...], "claims": [...], "machine": {...}, "settings": {...},
+//  "techniques": [...], "scenes": [...], "palette": {...}}
 [[nodiscard]] std::string results_json(Settings const& settings, std::span<scenes::NamedScene const> scenes,
                                        Backends backends, Results const& results);
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/run.hpp"
 
+#include "examples/gallery/draw_maps.hpp"
 #include "examples/gallery/measure.hpp"
 #include "examples/gallery/pictures.hpp"
 #include "examples/gallery/truth.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 
 namespace shadowmath::gallery {
@@ -22,18 +24,20 @@ struct Rendered {
 
 // The fastest of the runs is timed: the first one may also compile shaders and allocate.
 Rendered render(backend::Backend& backend, MapSet const& maps, backend::Extent extent, int runs) {
-    std::vector<backend::DepthLayer> layers;
-    for (Map const& map : maps.maps) layers.push_back({glm::mat4(map.clip_from_world), map.casters});
     Rendered rendered;
-    rendered.ms_depth = layers.empty() ? 0.0 : std::numeric_limits<double>::max();
-    rendered.ms_receive = std::numeric_limits<double>::max();
+    rendered.ms_depth = rendered.ms_receive = std::numeric_limits<double>::max();
     for (int i = 0; i < runs; ++i) {
-        if (!layers.empty())
-            rendered.ms_depth = std::min(rendered.ms_depth, backend.draw_depth({maps.map_size, layers}).milliseconds);
-        rendered.ms_receive = std::min(rendered.ms_receive, backend.draw_scene({extent, maps.frame}).milliseconds);
+        rendered.ms_depth = std::min(rendered.ms_depth, draw_maps(backend, maps, extent));
+        rendered.ms_receive = std::min(rendered.ms_receive, draw_picture(backend, maps, extent));
     }
     rendered.frame = backend.read_frame();
     return rendered;
+}
+
+std::vector<backend::Image<float>> maps_of(backend::Backend& backend, int count) {
+    std::vector<backend::Image<float>> maps;
+    for (int i = 0; i < count; ++i) maps.push_back(backend.read_depth(i));
+    return maps;
 }
 
 // One view of one scene, with what its techniques share.
@@ -47,12 +51,13 @@ public:
         write_png(path("truth"), truth_.picture);
     }
 
-    // One record a backend, each given to `take` as soon as it is there.
-    void show(Technique const& technique, std::function<void(Record)> const& take) {
-        MapSet const maps = fit(technique, scene_, view_, settings_.extent);
-        backend::Image<backend::Rgba8> first_colour;
-        for (auto const& backend : backends_) {
-            bool const is_first = &backend == &backends_.front();
+    // One record a backend, each given to `take` as soon as it is there; parity holds one for each but the first.
+    void show(Technique const& technique, std::span<Parity> parity, std::function<void(Record)> const& take) {
+        MapSet const maps = fit_on(*backends_.front(), technique, scene_, view_, settings_.extent);
+        Drawn first;
+        for (std::size_t i = 0; i < backends_.size(); ++i) {
+            auto const& backend = backends_[i];
+            bool const is_first = i == 0;
             Rendered const rendered = render(*backend, maps, settings_.extent, is_first ? 2 : 1);
             Measurement measured = measure(truth_, maps, rendered.frame);
             Record& record = measured.record;
@@ -64,14 +69,31 @@ public:
             record.ms_receive = rendered.ms_receive;
             for (std::string const& message : backend->take_messages())
                 record.note += (record.note.empty() ? "driver: " : "; driver: ") + message;
+            Drawn drawn{rendered.frame.colour, maps_of(*backend, record.maps)};
             if (is_first) {
-                write_pictures(technique, *backend, rendered.frame, measured);
-                first_colour = rendered.frame.colour;
+                write_pictures(technique, rendered.frame, drawn.maps, measured);
+                first = std::move(drawn);
             } else {
-                record.unlike_first_backend_fraction = unlike_fraction(first_colour, rendered.frame.colour);
+                record.unlike_first_backend_fraction = unlike_fraction(first.picture, drawn.picture);
+                compare(parity[i - 1], first, drawn);
             }
             take(std::move(record));
         }
+    }
+
+    // Of four stable cascades.
+    [[nodiscard]] std::vector<WayRecord> ways(backend::Backend& backend) const {
+        std::vector<Technique> const all = techniques(true);
+        auto const cascades = std::ranges::find(all, "cascades-4-stable", &Technique::id);
+        MapSet const maps = fit(*cascades, scene_, view_, settings_.extent);
+        SplitObjects const shown = objects_in_splits(maps, scene_, view_, settings_.extent);
+        auto records = measure_ways(backend, maps, shown, settings_.extent, settings_.way_runs());
+        for (WayRecord& record : records) {
+            record.scene = scene_.name;
+            record.view = view_.name;
+            record.backend = backend.info().name;
+        }
+        return records;
     }
 
 private:
@@ -79,16 +101,13 @@ private:
         return folder_ / picture_path(scene_.name, view_.name, name);
     }
 
-    void write_pictures(Technique const& technique, backend::Backend& backend, backend::Frame const& frame,
-                        Measurement const& measured) const {
+    void write_pictures(Technique const& technique, backend::Frame const& frame,
+                        std::span<backend::Image<float> const> maps, Measurement const& measured) const {
         write_png(path(technique.id + "-picture"), frame.colour);
         write_png(path(technique.id + "-difference"), difference_picture(truth_.picture, measured.outcome));
         write_png(path(technique.id + "-overlay"), overlay_picture(frame));
         write_png(path(technique.id + "-footprint"), footprint_picture(frame, measured.footprint));
-        if (measured.touched.empty()) return;
-        std::vector<backend::Image<float>> depths;
-        for (int i = 0; i < measured.record.maps; ++i) depths.push_back(backend.read_depth(i));
-        write_png(path(technique.id + "-maps"), maps_picture(depths, measured.touched));
+        if (!maps.empty()) write_png(path(technique.id + "-maps"), maps_picture(maps, measured.touched));
     }
 
     Settings const& settings_;
@@ -140,18 +159,27 @@ Results run(Settings const& settings, std::span<scenes::NamedScene const> scenes
     for (auto const& named : scenes) {
         oracle::RayOracle const oracle(named.scene);
         for (auto const& backend : backends) backend->upload(named.scene);
+        std::vector<Parity> parity;
+        for (auto const& backend : backends.subspan(1)) parity.push_back({named.scene.name, backend->info().name});
         for (scenes::View const& view : chosen_views(named, settings)) {
             ViewShow show(settings, named.scene, view, backends, oracle, folder);
             for (Technique const& technique : all) {
                 if (!serves(view)(technique)) continue;
-                show.show(technique, [&](Record record) {
+                show.show(technique, parity, [&](Record record) {
                     results.records.push_back(std::move(record));
                     Record const& kept = results.records.back();
                     tell(place(results.records.size(), total, kept) + percent(kept.mis_shadowed_fraction_off_edge) +
                          " off edge");
                 });
             }
+            if (&view != named.views.data()) continue;
+            tell("measuring the ways to draw the maps of " + named.scene.name);
+            for (auto const& backend : backends) {
+                std::ranges::move(show.ways(*backend), std::back_inserter(results.ways));
+                for (std::string const& message : backend->take_messages()) tell("driver: " + message);
+            }
         }
+        std::ranges::move(parity, std::back_inserter(results.parity));
     }
     tell("measuring what the sources claim");
     results.claims = measure_claims(*backends.front(), settings.quick);

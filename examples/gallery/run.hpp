@@ -5,9 +5,11 @@
 
 #include "examples/gallery/claims.hpp"
 #include "examples/gallery/close_ups.hpp"
+#include "examples/gallery/parity.hpp"
 #include "examples/gallery/record.hpp"
 #include "examples/gallery/settings.hpp"
 #include "examples/gallery/techniques.hpp"
+#include "examples/gallery/ways.hpp"
 #include "scenes/scenes.hpp"
 
 #include <filesystem>
@@ -21,6 +23,8 @@ using Backends = std::span<std::unique_ptr<backend::Backend> const>;
 
 struct Results {
     std::vector<Record> records;
+    std::vector<WayRecord> ways;  // of the first view of each scene
+    std::vector<Parity> parity;   // of each scene and backend but the first
     std::vector<Claim> claims;
     std::vector<CloseUp> close_ups;
 };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace shadowmath::gallery {
@@ -67,6 +69,9 @@ struct Input {
     Light<double> light;
     Aabb<double> casters, receivers;
     int map_size;
+    View const& view;
+    backend::Extent extent;
+    backend::Image<float> const& eye_depth;  // as eye_depth_pass draws it; empty unless the technique asks
 };
 
 // Takes a map into the set, with the constants that its receivers need. Maps that serve nothing are left out.
@@ -78,7 +83,6 @@ void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<
     MapBias<double> const bias = bias_for(map, in.light, in.map_size, options);
     MapConstants& constants = set.frame.maps[set.maps.size()];
     constants.clip_from_world = glm::mat4(map.clip_from_world);
-    constants.depth_begin = float(range.begin);
     constants.depth_end = float(range.end);
     constants.blend_begin = float(range.blend_begin);
     constants.w_min = float(map.w_min);
@@ -125,13 +129,18 @@ ShadowMap<double> standard_map(Input const& in) {
     return map;
 }
 
-// Height of the ground for the thesis' shadow plane: the median foot of the objects in view.
-double ground_height(Input const& in) {
+// What shows is what would be drawn into a map that looks as the eye does.
+CasterMaps<double> screen_of(View3 const& view) {
     ShadowMap<double> screen;
-    screen.clip_from_world = clip_from_world(in.seen, clip);
+    screen.clip_from_world = clip_from_world(view, clip);
     screen.clip = clip;
     screen.visible = true;
-    CasterMaps<double> const seen = caster_maps(&screen, 1);
+    return caster_maps(&screen, 1);
+}
+
+// Height of the ground for the thesis' shadow plane: the median foot of the objects in view.
+double ground_height(Input const& in) {
+    CasterMaps<double> const seen = screen_of(in.seen);
     std::vector<double> feet;
     for (auto const& object : in.scene.objects)
         if (object.receives && caster_mask(seen, box_of(object)) != 0) feet.push_back(double(object.lo.y));
@@ -178,6 +187,69 @@ ShadowMap<double> printed_map(Input const& in) {
     return map;
 }
 
+// The eye as its depth is drawn for fits: in float, as the device has it, reversed and without an end.
+ViewVolume<float> sampling_eye(View const& view, backend::Extent extent) {
+    Pose<float> const pose = pose_looking(glm::vec3(view.eye), glm::vec3(view.forward), glm::vec3(view.up));
+    return perspective_view(pose, float(view.fov_y_radians), float(extent.width) / float(extent.height),
+                            float(view.z_near), std::numeric_limits<float>::infinity());
+}
+constexpr ClipSpace sampling_clip = reversed(clip);
+
+// In float throughout, so that the device's own fit can be held against it bit for bit. Every split keeps its place,
+// seen or not.
+void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device) {
+    ViewVolume<float> const camera = sampling_eye(in.view, in.extent);
+    Light<float> const light = directional(glm::vec3(in.view.light_travel));
+    float const shadow_distance = float(in.view.shadow_distance);
+    Aabb<float> const casters{glm::vec3(in.casters.lo), glm::vec3(in.casters.hi)};
+    int const width = in.extent.width, height = in.extent.height;
+    SampleSplitOptions<float> splits;
+    splits.kind = kind;
+    SampleFitOptions<float> options;
+    options.map_size = in.map_size;
+    options.margin_texels = float(margin_texels);
+    options.clip = clip;
+
+    DepthCode<float> const code = depth_code(camera, sampling_clip);
+    SampleDepths<float> depths = no_depths(camera.z_near, shadow_distance);
+    for (float const stored : in.eye_depth.pixels) add(depths, decoded_depth(code, stored));
+    SampleBounds<float> bounds =
+        no_bounds(sample_splits(depths, splits.count, splits.kind, splits.least_ratio), splits.blend);
+    SampleRays<float> const rays = sample_rays(camera, light, width, height);
+    for (int y = 0; y < in.eye_depth.extent.height; ++y)
+        for (int x = 0; x < in.eye_depth.extent.width; ++x)
+            add(bounds, rays, x, y, decoded_depth(code, in.eye_depth.at(x, y)));
+    Cascades<float> const fitted = fit_samples(rays, bounds, casters, options);
+
+    note(set, fitted.faults);
+    set.frame.choice = MapChoice::by_depth;
+    std::vector<std::uint32_t> all_casters;
+    for (std::uint32_t i = 0; i < in.scene.objects.size(); ++i)
+        if (in.scene.objects[i].casts) all_casters.push_back(i);
+    for (int i = 0; i < (on_device ? splits.count : fitted.count); ++i) {
+        Cascade<float> const& cascade = fitted.at[i];
+        MapBias<float> const bias = bias_for(cascade.map, light, in.map_size, BiasOptions<float>{});
+        MapConstants& constants = set.frame.maps[set.maps.size()];
+        constants.clip_from_world = cascade.map.clip_from_world;
+        constants.depth_begin = cascade.range.begin;
+        constants.depth_end = cascade.range.end;
+        constants.blend_begin = cascade.range.blend_begin;
+        constants.bias_constant = bias.constant;
+        constants.bias_slope_texels = bias.slope_texels;
+        constants.slope_limit = bias.slope_limit;
+        set.maps.push_back({glm::dmat4(cascade.map.clip_from_world), all_casters});
+        if (i < fitted.count) set.splits.push_back(cascade.range.end);
+    }
+    set.frame.map_count = int(set.maps.size());
+    if (!set.splits.empty()) set.splits.insert(set.splits.begin(), in.seen.z_near);
+    if (!on_device) return;
+    GpuSampleFit const constants =
+        gpu_sample_fit(camera, sampling_clip, shadow_distance, light, width, height, casters, splits, options);
+    auto const bytes = std::as_bytes(std::span(&constants, std::size_t{1}));
+    set.device_fit.assign(bytes.begin(), bytes.end());
+    set.eye_depth_from_world = clip_from_world(camera, sampling_clip);
+}
+
 struct Entry {
     Technique technique;
     bool quick;  // also in quick runs
@@ -194,6 +266,10 @@ std::vector<Entry> const& entries() {
     };
     auto const single = [](ShadowMap<double> (*make)(Input const&)) {
         return [=](MapSet& set, Input const& in) { add(set, in, make(in), whole(in)); };
+    };
+    auto const sdsm = "Lauritzen, Salvi, Lefohn, I3D 2011";
+    auto const sampled = [](SampleSplits kind, bool on_device) {
+        return [=](MapSet& set, Input const& in) { sampled_maps(set, in, kind, on_device); };
     };
     static std::vector<Entry> const all = {
         {{"uniform-1", "One uniform map", "Williams 1978", 1024, 1, true}, true, single(standard_map)},
@@ -215,6 +291,15 @@ std::vector<Entry> const& entries() {
         {{"cascades-4-tight", "Four cascades, practical (λ 0.65), tight", pssm, 1024, 4, true},
          false,
          four(0.65, CascadeFit::tight)},
+        {{"sdsm-even", "Four maps fitted to what is seen, even splits", sdsm, 1024, 4, false, true},
+         false,
+         sampled(SampleSplits::even, false)},
+        {{"sdsm", "Four maps fitted to what is seen, splits around gaps", sdsm, 1024, 4, false, true},
+         false,
+         sampled(SampleSplits::adaptive, false)},
+        {{"sdsm-gpu", "The same, fitted on the GPU and used there", sdsm, 1024, 4, false, true},
+         true,
+         sampled(SampleSplits::adaptive, true)},
         {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false},
          true,
          single(warped_map)},
@@ -256,7 +341,12 @@ FrameConstants unshadowed(View const& view, backend::Extent extent) {
     return frame;
 }
 
-MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent) {
+backend::FitPass eye_depth_pass(View const& view, backend::Extent extent) {
+    return {extent, clip_from_world(sampling_eye(view, extent), sampling_clip), {}, {}, 0};
+}
+
+MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent,
+           backend::Image<float> const& eye_depth) {
     MapSet set;
     set.map_size = technique.map_size;
     set.frame = unshadowed(view, extent);
@@ -271,10 +361,35 @@ MapSet fit(Technique const& technique, Scene const& scene, View const& view, bac
                    light_of(view),
                    box_of_all(scene, &backend::Object::casts),
                    box_of_all(scene, &backend::Object::receives),
-                   technique.map_size};
+                   technique.map_size,
+                   view,
+                   extent,
+                   eye_depth};
     for (Entry const& entry : entries())
         if (entry.technique.id == technique.id) entry.make(set, in);
     return set;
+}
+
+SplitObjects objects_in_splits(MapSet const& set, Scene const& scene, View const& view, backend::Extent extent) {
+    View3 const eye = eye_of(view, extent);
+    CasterMaps<double> const screen = screen_of(eye);
+    SplitObjects shown(set.maps.size() + 1);
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        Aabb<double> const box = box_of(scene.objects[i]);
+        if (caster_mask(screen, box) == 0) continue;
+        double const middle = glm::dot(eye.pose.forward, 0.5 * (box.lo + box.hi) - eye.pose.position);
+        double const reach = glm::dot(glm::abs(eye.pose.forward), 0.5 * (box.hi - box.lo));
+        double begin = 0.0;
+        for (std::size_t split = 0; split < shown.size(); ++split) {
+            bool const is_last = split == set.maps.size();
+            double const end = is_last ? eye.z_far : double(set.frame.maps[split].depth_end);
+            constexpr double slack = 1e-2;  // the eye's depth buffer rounds an end by end / z_near * 2^-24 of it
+            if (middle - reach <= end * (1.0 + slack) && middle + reach >= begin * (1.0 - slack))
+                shown[split].push_back(i);
+            begin = end;
+        }
+    }
+    return shown;
 }
 
 }  // namespace shadowmath::gallery

@@ -9,6 +9,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Technique {
     int map_size = 1024;
     int maps = 1;  // at most; the maps of a view may be fewer
     bool serves_spots = false;
+    bool fits_to_samples = false;  // needs the eye's depth
 };
 
 // In the order in which the gallery shows them; quick runs take a few that span the field.
@@ -38,13 +40,27 @@ struct MapSet {
     int map_size = 1024;
     std::vector<double> splits;  // eye depths of the split planes, metres; empty where there are none
     std::string note;            // what the library had to say: faults in words, fallbacks taken
+
+    // Not empty: the backend makes the maps itself, from the eye's depth and these constants of sdsm_passes.hpp. The
+    // others above are then what the C++ makes of the same depth: what the maps should be.
+    std::vector<std::byte> device_fit;
+    glm::mat4 eye_depth_from_world{1.0f};
 };
+
+// Draws the depth that techniques which fit to samples need.
+[[nodiscard]] backend::FitPass eye_depth_pass(scenes::View const& view, backend::Extent extent);
 
 // The eye's matrix and the light of the view, with no map: what the G-buffer and the fully lit picture are drawn with.
 [[nodiscard]] backend::FrameConstants unshadowed(scenes::View const& view, backend::Extent extent);
 
 [[nodiscard]] MapSet fit(Technique const& technique, backend::Scene const& scene, scenes::View const& view,
-                         backend::Extent extent);
+                         backend::Extent extent, backend::Image<float> const& eye_depth = {});
+
+// Objects of the scene that show in each split of a view, by index, and last those beyond the last split.
+using SplitObjects = std::vector<std::vector<std::uint32_t>>;
+
+[[nodiscard]] SplitObjects objects_in_splits(MapSet const& set, backend::Scene const& scene, scenes::View const& view,
+                                             backend::Extent extent);
 
 // Kernel width of the receiver pass that all techniques share: 0, 1 or 2.
 inline constexpr int filter_radius = 1;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // A lamp that shines in all directions: six maps, each a spot's, and only those that the eye has a use for. A face is
-// skipped where the view, the receivers or the casters do not reach it; those that remain are zoomed in on what is seen,
-// and their near planes come from their casters.
+// skipped where the view, the receivers or the casters do not reach it; those that remain are zoomed in on what is
+// seen, and their near planes come from their casters.
 //
 //          +---+
 //          |+y |            face    0   1   2   3   4   5
 //      +---+---+---+---+    axis   +x  -x  +y  -y  +z  -z       of the world
 //      |-x |+z |+x |-z |
-//      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D ones
-//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces. They
+//      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D
+// ones
+//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces.
+// They
 //          +---+            are not the layers of a cube texture: those cannot be zoomed in on.
 //
 // Source: six perspective faces are common knowledge; the crop is that of fit_spot.

@@ -84,6 +84,36 @@ template <class T>
     return smallest_ball(points);
 }
 
+template <class T>
+struct BallInView {
+    Vec3<T> center{T(0)};  // (right, up, forward), in units
+    T unit = T(1);         // metres
+    T radius_metres = T(0);
+};
+
+// Of a slice without faults, of any kind.
+template <class T>
+[[nodiscard]] inline BallInView<T> ball_in_view(ViewVolume<T> const& slice) noexcept {
+    bool const flat = slice.kind == ViewKind::orthographic;
+    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
+                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
+    Sphere<T> ball;
+    if (flat) {
+        T const half = T(0.5) / unit;
+        Vec3<T> const extent((slice.right - slice.left) * half, (slice.top - slice.bottom) * half,
+                             (slice.z_far - slice.z_near) * half);
+        ball.center = Vec3<T>((slice.left + slice.right) * half, (slice.bottom + slice.top) * half,
+                              (slice.z_near + slice.z_far) * half);
+        ball.radius = std::sqrt(glm::dot(extent, extent));
+    } else {
+        ball = ball_of_unit_slice(slice, slice.z_near / slice.z_far);
+    }
+    // Up by what the coordinates of corner and centre were rounded by.
+    T const slack = T(8) * std::numeric_limits<T>::epsilon();
+    return {ball.center, unit, (ball.radius + slack * (T(1) + ball.radius)) * unit};
+}
+
 }  // namespace detail
 
 // Holds all eight corners, each to the rounding of its own world coordinates, and no smaller ball does, but for a few
@@ -101,22 +131,9 @@ template <class T>
         !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
         (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
         return {};
-    T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
-    Sphere<T> ball;
-    if (flat) {
-        T const half = T(0.5) / unit;
-        Vec3<T> const extent((slice.right - slice.left) * half, (slice.top - slice.bottom) * half,
-                             (slice.z_far - slice.z_near) * half);
-        ball.center = Vec3<T>((slice.left + slice.right) * half, (slice.bottom + slice.top) * half,
-                              (slice.z_near + slice.z_far) * half);
-        ball.radius = std::sqrt(glm::dot(extent, extent));
-    } else {
-        ball = detail::ball_of_unit_slice(slice, slice.z_near / slice.z_far);
-    }
-    // Up by what the coordinates of corner and centre were rounded by.
-    T const slack = T(8) * std::numeric_limits<T>::epsilon();
-    return {p + (f * ball.center.z + r * ball.center.x + u * ball.center.y) * unit,
-            (ball.radius + slack * (T(1) + ball.radius)) * unit};
+    detail::BallInView<T> const seen = detail::ball_in_view(slice);
+    Vec3<T> const& c = seen.center;
+    return {p + (f * c.z + r * c.x + u * c.y) * seen.unit, seen.radius_metres};
 }
 
 }  // namespace v0

@@ -76,14 +76,14 @@ template <class T>
     return {region.lo - border, region.hi + border};
 }
 
-// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty, not
-// finite, or so small or so large that its scale would not be, gives the identity.
+// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or
+// not finite gives the identity.
 template <class T>
 [[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
     if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
-    Vec2<T> const scale = T(2) / (region.hi - region.lo);
-    Vec2<T> const offset = -(region.hi + region.lo) / (region.hi - region.lo);
-    if (!all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
+    Vec2<T> const size = region.hi - region.lo;
+    Vec2<T> const scale = T(2) / size, offset = -(region.hi + region.lo) / size;
+    if (!all_finite(size) || !all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
     return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
                      Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }
@@ -166,99 +166,160 @@ namespace detail {
 
 inline constexpr int bodies_at_once = 16;
 
-// The least and the largest NDC so far, one of each for every place in a block.
+// Least and largest NDC so far, one of each for every place in a block of boxes.
 template <class T>
-struct BoundsInLanes {
+struct BoundsInBlocks {
+    static constexpr int n = bodies_at_once;
+    static constexpr T none = std::numeric_limits<T>::max();
     T lo[3][bodies_at_once];
     T hi[3][bodies_at_once];
-};
 
-// One block of boxes. `plain` says which of them were taken: all eight corners at w >= w_min, nothing empty, nothing
-// too large. The others are left to the caller, but for those wholly behind w_min, which have no bounds.
-template <class T>
-struct BoundsBlock {
-    Mat4<T> const& m;
-    T w_min;
-    BoxArrays<T> const& boxes;
-    BoundsInLanes<T>& bounds;
-    std::uint32_t* plain;
-    std::uint32_t* behind;
-
-    // Products of a row with both ends of each axis: a corner is X + Y + Z, so eight corners are six products.
-    struct Row {
-        T x0, x1, y0, y1, z0, z1;
-    };
-    [[gnu::always_inline]] Row row_of(int r, int i) const noexcept {
-        return {m[0][r] * boxes.lo_x[i], m[0][r] * boxes.hi_x[i],           m[1][r] * boxes.lo_y[i],
-                m[1][r] * boxes.hi_y[i], m[2][r] * boxes.lo_z[i] + m[3][r], m[2][r] * boxes.hi_z[i] + m[3][r]};
+    [[gnu::always_inline]] BoundsInBlocks() noexcept {
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < n; ++i) lo[r][i] = none, hi[r][i] = -none;
     }
     [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
     [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
+    [[gnu::always_inline]] void add(int r, int i, std::uint32_t taken, T least, T most) noexcept {
+        lo[r][i] = less(lo[r][i], taken != 0 ? least : none);
+        hi[r][i] = more(hi[r][i], taken != 0 ? most : -none);
+    }
+    [[nodiscard]] Aabb<T> merged() const noexcept {
+        Aabb<T> all;
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < n; ++i) {
+                all.lo[r] = less(all.lo[r], lo[r][i]);
+                all.hi[r] = more(all.hi[r], hi[r][i]);
+            }
+        return all;
+    }
+};
 
-    [[gnu::always_inline]] static T sum(Row const& row, int corner) noexcept {
-        return (corner & 1 ? row.x1 : row.x0) + (corner & 2 ? row.y1 : row.y0) + (corner & 4 ? row.z1 : row.z0);
+// Products of a row with both ends of each axis of a box. A corner is X + Y + Z, so that eight corners are six
+// products, and the extent of all of them is three sums.
+template <class T>
+struct EndProducts {
+    T x0, x1, y0, y1, z0, z1;
+
+    [[gnu::always_inline]] EndProducts(Vec4<T> const& row, BoxArrays<T> const& at, int i) noexcept
+        : x0(row.x * at.lo_x[i]), x1(row.x * at.hi_x[i]), y0(row.y * at.lo_y[i]), y1(row.y * at.hi_y[i]),
+          z0(row.z * at.lo_z[i] + row.w), z1(row.z * at.hi_z[i] + row.w) {}
+    [[gnu::always_inline]] T least() const noexcept {
+        return (x0 < x1 ? x0 : x1) + (y0 < y1 ? y0 : y1) + (z0 < z1 ? z0 : z1);
+    }
+    [[gnu::always_inline]] T most() const noexcept {
+        return (x0 > x1 ? x0 : x1) + (y0 > y1 ? y0 : y1) + (z0 > z1 ? z0 : z1);
+    }
+};
+
+// Bounds of whole blocks of boxes; projected_bounds below prepares the matrix.
+template <class T>
+struct BoundsOfBoxes {
+    Mat4<T> const& matrix;
+    T w_min;
+    BoxArrays<T> const& boxes;
+    int blocks;
+    Aabb<T>& bounds;
+
+    static constexpr int n = bodies_at_once;
+
+    [[gnu::always_inline]] static bool in_reach(BoxArrays<T> const& at) noexcept {
+        decltype(beyond_reach(T(0))) beyond = 0;
+        for (int i = 0; i < n; ++i)
+            beyond |= beyond_reach(std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) +
+                                   std::abs(at.hi_y[i]) + std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]));
+        return beyond >> (8 * sizeof beyond - 1) == 0;
+    }
+    [[gnu::always_inline]] static bool full(BoxArrays<T> const& at, int i) noexcept {
+        return (at.lo_x[i] <= at.hi_x[i]) & (at.lo_y[i] <= at.hi_y[i]) & (at.lo_z[i] <= at.hi_z[i]);
     }
 
-    // The four rows of a matrix with (0, 0, 0, w) below: extents add up, and one quotient at the end serves all.
+    // w is the same everywhere: one quotient at the end serves all.
     [[gnu::always_inline]] void affine() const noexcept {
-        for (int r = 0; r < 3; ++r) {
-            for (int i = 0; i < bodies_at_once; ++i) {
-                Row const at = row_of(r, i);
-                T const lo = less(at.x0, at.x1) + less(at.y0, at.y1) + less(at.z0, at.z1);
-                T const hi = more(at.x0, at.x1) + more(at.y0, at.y1) + more(at.z0, at.z1);
-                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
-                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+        BoundsInBlocks<T> so_far;
+        T least[bodies_at_once], most[bodies_at_once];
+        std::uint32_t taken[bodies_at_once];
+        for (int block = 0; block < blocks; ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, block * n);
+            if (!in_reach(at)) {
+                one_by_one(at, nullptr);
+                continue;
+            }
+            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
+            for (int r = 0; r < 3; ++r) {
+                Vec4<T> const above = row(matrix, r);
+                for (int i = 0; i < n; ++i) {
+                    EndProducts<T> const p(above, at, i);
+                    least[i] = p.least();
+                    most[i] = p.most();
+                }
+                // NOTE: in the loop above, this would become a branch.
+                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i], least[i], most[i]);
             }
         }
+        Aabb<T> const merged = so_far.merged();
+        if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{merged.lo / matrix[3][3], merged.hi / matrix[3][3]});
     }
 
     [[gnu::always_inline]] void perspective() const noexcept {
+        BoundsInBlocks<T> so_far;
         T inverse[8][bodies_at_once];
-        for (int i = 0; i < bodies_at_once; ++i) {
-            Row const w = row_of(3, i);
-            T const least = less(w.x0, w.x1) + less(w.y0, w.y1) + less(w.z0, w.z1);
-            T const most = more(w.x0, w.x1) + more(w.y0, w.y1) + more(w.z0, w.z1);
-            behind[i] = ((most < w_min) & (plain[i] != 0)) ? 1u : 0u;
-            plain[i] = least >= w_min ? plain[i] : 0u;
-            inverse[0][i] = T(1) / sum(w, 0), inverse[1][i] = T(1) / sum(w, 1);
-            inverse[2][i] = T(1) / sum(w, 2), inverse[3][i] = T(1) / sum(w, 3);
-            inverse[4][i] = T(1) / sum(w, 4), inverse[5][i] = T(1) / sum(w, 5);
-            inverse[6][i] = T(1) / sum(w, 6), inverse[7][i] = T(1) / sum(w, 7);
-        }
-        for (int r = 0; r < 3; ++r) {
-            for (int i = 0; i < bodies_at_once; ++i) {
-                Row const at = row_of(r, i);
-                T const a = sum(at, 0) * inverse[0][i], b = sum(at, 1) * inverse[1][i];
-                T const c = sum(at, 2) * inverse[2][i], d = sum(at, 3) * inverse[3][i];
-                T const e = sum(at, 4) * inverse[4][i], f = sum(at, 5) * inverse[5][i];
-                T const g = sum(at, 6) * inverse[6][i], h = sum(at, 7) * inverse[7][i];
-                T const lo = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
-                T const hi = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
-                bounds.lo[r][i] = plain[i] != 0 ? less(bounds.lo[r][i], lo) : bounds.lo[r][i];
-                bounds.hi[r][i] = plain[i] != 0 ? more(bounds.hi[r][i], hi) : bounds.hi[r][i];
+        std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
+        for (int block = 0; block < blocks; ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, block * n);
+            if (!in_reach(at)) {
+                one_by_one(at, nullptr);
+                continue;
             }
+            std::uint32_t any_astride = 0;
+            Vec4<T> const below = row(matrix, 3);
+            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
+            for (int i = 0; i < n; ++i) {
+                EndProducts<T> const w(below, at, i);
+                T const least = w.least(), most = w.most();
+                std::uint32_t const in_front = least >= w_min ? ~0u : 0u, reaches = most >= w_min ? ~0u : 0u;
+                astride[i] = taken[i] & reaches & ~in_front;
+                taken[i] &= in_front;
+                any_astride |= astride[i];
+                T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
+                inverse[0][i] = T(1) / (xy00 + w.z0), inverse[1][i] = T(1) / (xy10 + w.z0);
+                inverse[2][i] = T(1) / (xy01 + w.z0), inverse[3][i] = T(1) / (xy11 + w.z0);
+                inverse[4][i] = T(1) / (xy00 + w.z1), inverse[5][i] = T(1) / (xy10 + w.z1);
+                inverse[6][i] = T(1) / (xy01 + w.z1), inverse[7][i] = T(1) / (xy11 + w.z1);
+            }
+            for (int r = 0; r < 3; ++r) {
+                Vec4<T> const above = row(matrix, r);
+                for (int i = 0; i < n; ++i) {
+                    EndProducts<T> const p(above, at, i);
+                    T const xy00 = p.x0 + p.y0, xy10 = p.x1 + p.y0, xy01 = p.x0 + p.y1, xy11 = p.x1 + p.y1;
+                    T const a = (xy00 + p.z0) * inverse[0][i], b = (xy10 + p.z0) * inverse[1][i];
+                    T const c = (xy01 + p.z0) * inverse[2][i], d = (xy11 + p.z0) * inverse[3][i];
+                    T const e = (xy00 + p.z1) * inverse[4][i], f = (xy10 + p.z1) * inverse[5][i];
+                    T const g = (xy01 + p.z1) * inverse[6][i], h = (xy11 + p.z1) * inverse[7][i];
+                    auto const less = [](T s, T t) { return BoundsInBlocks<T>::less(s, t); };
+                    auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
+                    T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
+                    T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
+                    so_far.add(r, i, taken[i], least, most);
+                }
+            }
+            if (any_astride != 0) one_by_one(at, astride);
+        }
+        bounds = merge(bounds, so_far.merged());
+    }
+
+    // `wanted`: null for all.
+    void one_by_one(BoxArrays<T> const& at, std::uint32_t const* wanted) const noexcept {
+        for (int i = 0; i < n; ++i) {
+            if (wanted != nullptr && wanted[i] == 0) continue;
+            Aabb<T> const box = box_at(at, i);
+            if (all_finite(box) && !is_empty(box))
+                bounds = merge(bounds, projected_bounds(matrix, corners(box), w_min));
         }
     }
 
     [[gnu::always_inline]] void operator()() const noexcept {
-        decltype(beyond_reach(T(0))) beyond = 0;
-        for (int i = 0; i < bodies_at_once; ++i) {
-            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
-                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
-            beyond |= beyond_reach(sizes);
-        }
-        if (beyond >> (8 * sizeof beyond - 1) != 0) {
-            for (int i = 0; i < bodies_at_once; ++i) plain[i] = behind[i] = 0;
-            return;
-        }
-        for (int i = 0; i < bodies_at_once; ++i) {
-            plain[i] =
-                ((boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]))
-                    ? 1u
-                    : 0u;
-            behind[i] = 0;
-        }
-        bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
+        bool const flat = matrix[0][3] == T(0) && matrix[1][3] == T(0) && matrix[2][3] == T(0);
         if (flat)
             affine();
         else
@@ -269,46 +330,36 @@ struct BoundsBlock {
 }  // namespace detail
 
 // The bounds of many boxes together: what projected_bounds of each, merged, would give, to rounding; a box that is
-// empty or not finite adds nothing. For a w_min that is not positive one by one, and slowly, unless the matrix is
-// affine.
+// empty or not finite adds nothing. Fast where w_min is positive, or the matrix affine; otherwise box by box.
 template <class T>
 [[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, BoxArrays<T> const& boxes, int count,
                                               T w_min) noexcept {
-    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return {};
+    Aabb<T> bounds;
+    if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return bounds;
     Mat4<T> const& m = clip_from_world;
     T entry = T(0);
     for (int column = 0; column < 4; ++column)
         for (int r = 0; r < 4; ++r) entry = glm::max(entry, std::abs(m[column][r]));
     bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
-    T const w = m[3][3];
-    bool const in_blocks = entry <= T(1e15) && (flat ? w >= T(1e-15) && w >= w_min : w_min >= T(1e-15));
-    Aabb<T> all;
-    detail::BoundsInLanes<T> lanes;
-    for (int r = 0; r < 3; ++r)
-        for (int i = 0; i < detail::bodies_at_once; ++i) {
-            lanes.lo[r][i] = std::numeric_limits<T>::max();
-            lanes.hi[r][i] = std::numeric_limits<T>::lowest();
-        }
+    bool const ordinary = entry <= T(1e15) && (flat ? m[3][3] >= T(1e-15) && m[3][3] >= w_min : w_min >= T(1e-15));
     constexpr int n = detail::bodies_at_once;
-    for (int begin = 0; begin < count; begin += n) {
-        BoxArrays<T> const block = boxes_from(boxes, begin);
-        int const length = count - begin < n ? count - begin : n;
-        std::uint32_t plain[n] = {}, behind[n] = {};
-        if (in_blocks && length == n) detail::run_widely(detail::BoundsBlock<T>{m, w_min, block, lanes, plain, behind});
-        for (int i = 0; i < length; ++i) {
-            if ((plain[i] | behind[i]) != 0) continue;
-            Aabb<T> const box = box_at(block, i);
-            if (all_finite(box) && !is_empty(box)) all = merge(all, projected_bounds(m, corners(box), w_min));
-        }
-    }
-    Aabb<T> in_lanes;
-    for (int r = 0; r < 3; ++r)
+    int const whole = ordinary && count > 0 ? count / n * n : 0;
+    if (whole > 0) detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, boxes, whole / n, bounds});
+    if (ordinary && count > whole) {
+        // What is left of a block, filled up with empty boxes.
+        T ends[6][n];
         for (int i = 0; i < n; ++i) {
-            in_lanes.lo[r] = glm::min(in_lanes.lo[r], lanes.lo[r][i]);
-            in_lanes.hi[r] = glm::max(in_lanes.hi[r], lanes.hi[r][i]);
+            Aabb<T> const box = whole + i < count ? box_at(boxes, whole + i) : Aabb<T>{Vec3<T>(T(1)), Vec3<T>(T(0))};
+            for (int axis = 0; axis < 3; ++axis) ends[axis][i] = box.lo[axis], ends[axis + 3][i] = box.hi[axis];
         }
-    if (is_empty(in_lanes)) return all;
-    return merge(all, flat ? Aabb<T>{in_lanes.lo / w, in_lanes.hi / w} : in_lanes);
+        BoxArrays<T> const rest{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
+        detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, rest, 1, bounds});
+    }
+    for (int i = ordinary ? count : 0; i < count; ++i) {
+        Aabb<T> const box = box_at(boxes, i);
+        if (all_finite(box) && !is_empty(box)) bounds = merge(bounds, projected_bounds(m, corners(box), w_min));
+    }
+    return bounds;
 }
 
 }  // namespace v0

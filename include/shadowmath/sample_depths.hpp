@@ -129,6 +129,12 @@ struct Cover {
     bool complete = false;  // the last one ends within the ratio
 };
 
+template <class T>
+[[nodiscard]] inline T usable_ratio(T const& ratio) noexcept {
+    if (!all_finite(&ratio, 1)) return T(1.05);
+    return ratio < T(1.0001) ? T(1.0001) : (ratio > T(1 << 20) ? T(1 << 20) : ratio);
+}
+
 // A nearer first sample could need ratios beyond 2^20; it joins the first split as it is.
 template <class T>
 [[nodiscard]] inline T first_depth(T lo, T hi) noexcept {
@@ -177,8 +183,7 @@ template <class T>
     splits.faults = depths.faults;
     int const most = count < 0 ? 0 : (count > max_splits ? max_splits : count);
     if (most != count) splits.faults |= Fault::count_clamped;
-    T least = all_finite(&least_ratio, 1) ? least_ratio : T(1.05);
-    least = least < T(1.0001) ? T(1.0001) : (least > T(1 << 20) ? T(1 << 20) : least);
+    T const least = detail::usable_ratio(least_ratio);
     if (!all_finite(&least_ratio, 1) || least != least_ratio) splits.faults |= Fault::clamped_option;
     if (depths.counted == 0 || most == 0) return splits;
 

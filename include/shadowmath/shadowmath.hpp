@@ -67,6 +67,7 @@
 #include <shadowmath/sample_bounds.hpp>
 #include <shadowmath/sample_depths.hpp>
 #include <shadowmath/sdsm.hpp>
+#include <shadowmath/stored_depth.hpp>
 
 // What the shader does, on the CPU.
 #include <shadowmath/filter.hpp>
@@ -80,3 +81,7 @@
 
 // And what it reads.
 #include <shadowmath/gpu.hpp>
+#include <shadowmath/gpu_samples.hpp>
+
+// Exact hard shadows.
+#include <shadowmath/irregular.hpp>

@@ -40,7 +40,9 @@ struct ViewInLight {
     Lanes<T> eye_lo;    // at depth 0, the least
     Lanes<T> eye_hi;    // and the largest
     Lanes<T> slope_lo;  // by which they grow with depth
-    Lanes<T> slope_hi;  // all four outward by what a coordinate may be rounded by
+    Lanes<T> slope_hi;
+    T rounding;  // of a coordinate at depth 0, metres
+    T rounding_slope;
 };
 
 template <class T>
@@ -75,21 +77,30 @@ template <class T>
     bool const flat = view.kind == ViewKind::orthographic;
     T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
     constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
-    Lanes<T> const rounding = all_four(unit * (absolute_sum(pose.position) + (flat ? sides : T(0))));
-    Lanes<T> const rounding_slope = all_four(unit * (T(1) + (flat ? T(0) : sides)));
-    seen.eye_lo = (flat ? eye + lo : eye) - rounding;
-    seen.eye_hi = (flat ? eye + hi : eye) + rounding;
-    seen.slope_lo = (flat ? forward : forward + lo) - rounding_slope;
-    seen.slope_hi = (flat ? forward : forward + hi) + rounding_slope;
+    seen.rounding = unit * (absolute_sum(pose.position) + (flat ? sides : T(0)));
+    seen.rounding_slope = unit * (T(1) + (flat ? T(0) : sides));
+    seen.eye_lo = flat ? eye + lo : eye;
+    seen.eye_hi = flat ? eye + hi : eye;
+    seen.slope_lo = flat ? forward : forward + lo;
+    seen.slope_hi = flat ? forward : forward + hi;
     return true;
 }
 
 // Neither so near that a reciprocal overflows nor out of reach; increasing, as all functions make them.
 template <class T>
 [[nodiscard]] inline bool in_range(Splits<T> const& splits) noexcept {
-    T const &first = splits.plane[0], &last = splits.plane[splits.count];
-    return splits.count > 0 && all_finite(&first, 1) && all_finite(&last, 1) && first >= T(0) &&
-           splits.plane[1] >= least_metres<T> && last <= farthest_metres<T>;
+    if (splits.count < 1 || splits.count > max_splits || !all_finite(splits.plane, splits.count + 1)) return false;
+    bool increasing = splits.plane[0] >= T(0);
+    for (int i = 0; i < splits.count; ++i) increasing = increasing & (splits.plane[i] < splits.plane[i + 1]);
+    return increasing && splits.plane[1] >= least_metres<T> && splits.plane[splits.count] <= farthest_metres<T>;
+}
+
+// As bounding_sphere asks of a slice.
+template <class T>
+[[nodiscard]] inline bool ball_in_reach(ViewVolume<T> const& view, T farthest) noexcept {
+    T const side = std::fmax(std::fmax(std::abs(view.left), std::abs(view.right)),
+                             std::fmax(std::abs(view.bottom), std::abs(view.top)));
+    return view.kind == ViewKind::orthographic || (side <= T(1e9) && side * farthest <= farthest_metres<T>);
 }
 
 // Extent of the map on each axis, and its middle, in the convention.
@@ -136,13 +147,84 @@ template <class T>
     detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(2) - T(4) * border);
     for (int i = 0; i < splits.count; ++i) {
         Lanes const n = detail::all_four(splits.plane[i]), f = detail::all_four(splits.plane[i + 1]);
-        Lanes const lo = seen.eye_lo + least(n * seen.slope_lo, f * seen.slope_lo);
-        Lanes const hi = seen.eye_hi + largest(n * seen.slope_hi, f * seen.slope_hi);
+        Lanes const rounding = detail::all_four(seen.rounding + seen.rounding_slope * splits.plane[i + 1]);
+        Lanes const lo = seen.eye_lo + least(n * seen.slope_lo, f * seen.slope_lo) - rounding;
+        Lanes const hi = seen.eye_hi + largest(n * seen.slope_hi, f * seen.slope_hi) + rounding;
         Lanes const scale = map.extent / (hi - lo);
         detail::write_columns(seen, scale, map.middle - (lo + hi) * detail::all_four(T(0.5)) * scale,
                               clip_from_world[i]);
     }
     return true;
+}
+
+// As fit_slice_boxes, with the window of the slice's bounding sphere on the texel grid (texel_grid.hpp) for sides: what
+// casts no shimmering shadows. Nothing of the sphere is lost in x and y, and no corner of the slice in depth. False as
+// well where the margin leaves no texel, or the view is so far out that its texels cannot be counted.
+template <class T>
+[[nodiscard]] inline bool fit_slice_spheres(ViewVolume<T> const& view, LightBasis<T> const& basis,
+                                            Splits<T> const& splits, int map_size, T margin_texels, ClipSpace clip,
+                                            Mat4<T>* clip_from_world) noexcept {
+    using Lanes = detail::Lanes<T>;
+    using Exact = decltype(T() + double());
+    detail::ViewInLight<T> seen;
+    Faults const margin = faults_of_margin(map_size, margin_texels);
+    bool good = detail::look(basis, view, seen) && detail::in_range(splits) && !margin.has(Fault::not_finite) &&
+                !margin.has(Fault::map_too_small) && detail::ball_in_reach(view, splits.plane[splits.count]);
+    if (!good) {
+        for (int i = 0; i < splits.count; ++i) clip_from_world[i] = nowhere<T>();
+        return false;
+    }
+    detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(1));
+    T const radii =
+        (T(2) + T(16) * std::numeric_limits<T>::epsilon()) / (usable_texels(map_size, margin_texels) - T(1));
+    Exact const size = Exact(map_size), per_side = 1 / size;
+    auto const exact = [](Vec3<T> const& axis, Vec3<T> const& v) {
+        return Exact(axis.x) * Exact(v.x) + Exact(axis.y) * Exact(v.y) + Exact(axis.z) * Exact(v.z);
+    };
+    Pose<T> const& pose = view.pose;
+    bool const centred = view.left == -view.right && view.bottom == -view.top;
+    Exact const eye_x = exact(basis.x, pose.position), eye_y = exact(basis.y, pose.position);
+    Exact const forward_x = exact(basis.x, pose.forward), forward_y = exact(basis.y, pose.forward);
+    ViewVolume<T> part = view;
+    for (int i = 0; i < splits.count; ++i) {
+        part.z_near = splits.plane[i], part.z_far = splits.plane[i + 1];
+        detail::BallInView<T> const ball = detail::ball_in_view(part);
+        Exact const unit = Exact(ball.unit), depth = Exact(ball.center.z) * unit;
+        Exact x = eye_x + forward_x * depth, y = eye_y + forward_y * depth;
+        if (!centred) {
+            x += (exact(basis.x, pose.right) * Exact(ball.center.x) + exact(basis.x, pose.up) * Exact(ball.center.y)) *
+                 unit;
+            y += (exact(basis.y, pose.right) * Exact(ball.center.x) + exact(basis.y, pose.up) * Exact(ball.center.y)) *
+                 unit;
+        }
+        T const texel = ball.radius_metres * radii;
+        Exact const texels = 1 / Exact(texel), middle = Exact(0.5) - size * Exact(0.5);
+        Exact const left = x * texels + middle, bottom = y * texels + middle;
+        if (!(std::abs(left) < Exact(0x1p51) && std::abs(bottom) < Exact(0x1p51)) ||
+            !(texel >= detail::least_metres<T>)) {
+            clip_from_world[i] = nowhere<T>();
+            good = false;
+            continue;
+        }
+        auto const whole = [](Exact value) {
+            auto const truncated = static_cast<std::int64_t>(value);
+            return truncated - (Exact(truncated) > value ? 1 : 0);
+        };
+        T const across = T(2 * per_side * texels);
+        T const offset_x = T(-(2 * Exact(whole(left)) * per_side + 1));
+        T const offset_y = T(-(2 * Exact(whole(bottom)) * per_side + 1));
+        T const n = part.z_near, f = part.z_far;
+        T const n_lo = n * seen.slope_lo[2], f_lo = f * seen.slope_lo[2];
+        T const n_hi = n * seen.slope_hi[2], f_hi = f * seen.slope_hi[2];
+        T const rounding = seen.rounding + seen.rounding_slope * f;
+        T const lo = seen.eye_lo[2] + (n_lo < f_lo ? n_lo : f_lo) - rounding;
+        T const hi = seen.eye_hi[2] + (n_hi > f_hi ? n_hi : f_hi) + rounding;
+        T const along = map.extent[2] / (hi - lo), up = map.extent[1];
+        detail::write_columns(seen, Lanes::of(across, across * up, along, T(0)),
+                              Lanes::of(offset_x, offset_y * up, map.middle[2] - (lo + hi) * T(0.5) * along, T(1)),
+                              clip_from_world[i]);
+    }
+    return good;
 }
 
 }  // namespace v0

@@ -15,6 +15,37 @@ constexpr int keep(Functions...) noexcept {
     return static_cast<int>(sizeof...(Functions));
 }
 
+// The irregular z-buffer, on lanes of every kind that this machine has.
+template <class T, class Lanes>
+int every_irregular_function_on() noexcept {
+    Storage<T> const storage;
+    PixelFrame<T> const frame = pixel_frame(ViewVolume<T>{}, 4, 4, YAxis::down);
+    Receivers<T> receivers;
+    T const numbers[16] = {};
+    std::uint32_t words[32] = {};
+    receivers.depth = receivers.normal = numbers;
+    IrregularBuffer<T> buffer = list_receivers<T, Lanes>(frame, receivers, Light<T>{}, ShadowMap<T>{}, 16, storage);
+    trace<T, Lanes>(buffer, Casters<T>{});
+    Lanes const lanes =
+        least(most(Lanes::load(numbers), Lanes::all(T(0))), reciprocal(Lanes::all(T(1))) / Lanes::all(T(2)));
+    int count =
+        smallest(chosen(1u, absolute(lanes), with_sign_of(lanes, lanes))) < largest(fused(lanes, lanes, lanes - lanes));
+    count += Lanes::compress(at_least(lanes, lanes), words, words + 16) > 16;
+    count += half_plane_mask<Lanes>(PixelLine<T>{}) == half_plane_mask(half_plane_table(), PixelLine<T>{});
+    return count;
+}
+
+template <class T>
+int every_irregular_function() noexcept {
+    int count = every_irregular_function_on<T, PlainLanes<T>>() + every_irregular_function_on<T, BestLanes<T>>();
+    count +=
+        frame_in<Wider<T>>(PixelFrame<T>{}).width + static_cast<int>(storage_for(4, 4, 16).words) + level_size(16, 1);
+    count += radical_inverse<T>(2, 1) > T(0);
+    count += keep(&direction_in_pixels<T>, &point_in_pixels<T>, &pixel_plane<T>, &micro_quad<T>, &point_on<T>,
+                  &pixel_light<T>, &shadow_volume<T>, &line_across<T>, &write_masks<T>);
+    return count;
+}
+
 template <class T>
 int every_overloaded_function() noexcept {
     Vec3<T> const point(T(0));
@@ -55,6 +86,7 @@ int every_overloaded_function() noexcept {
                  .blocked;
     auto const stored_moments = [](int, int) { return Vec2<T>(T(1)); };
     count += mean_moments(Vec2<T>(T(1)), 16, 1, Vec2<T>(T(1)), stored_moments).x > T(0);
+    count += every_irregular_function<T>() > 0;
     return count;
 }
 
@@ -106,7 +138,9 @@ int every_function() noexcept {
     count += keep(&by_depth<T>, &by_map<T>, &blended<T>, &shade<T>);
     count +=
         keep(&sample_rays<T>, &from_eye<T>, &is_served<T>, &eighth_of_octave_up<T>, &light_entry<T>, &fit_samples<T>);
+    count += keep(&depth_code<T>, &decoded_depth<T>, &gpu_sample_fit);
     count += keep(&texture_from_world<T>);
+    count += keep(&fit_slice_boxes<T>, &fit_slice_spheres<T>, &clip_points<T>, &box_at<T>, &boxes_from<T>);
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);

@@ -58,7 +58,6 @@ struct CascadedView {
                                                           directional(travel), bounds, bounds, options)) {
             auto const i = static_cast<std::size_t>(frame.map_count++);
             frame.maps[i].clip_from_world = cascade.map.clip_from_world;
-            frame.maps[i].depth_begin = cascade.range.begin;
             frame.maps[i].depth_end = frame.maps[i].blend_begin = cascade.range.end;
             frame.maps[i].bias_constant = 1e-4f;
             for (std::uint32_t object = 0; object < scene.objects.size(); ++object)

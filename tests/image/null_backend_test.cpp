@@ -70,6 +70,15 @@ TEST(NullBackend, SaysWhatIsWrongWithACall) {
     EXPECT_EQ(scene_with([](auto& pass) { pass.frame.maps[0].clip_from_world[0][0] = INFINITY; }),
               "scene pass: map 0 has a matrix that is not finite");
     EXPECT_EQ(complaint_of([&] { static_cast<void>(backend.read_depth(1)); }), "read_depth: layer 1 of 1");
+    EXPECT_EQ(depth_with([](auto& pass, auto&, auto&) { pass.fitted = true; }),
+              "a pass takes fitted maps, but none were fitted");
+    EXPECT_EQ(scene_with([](auto& pass) { pass.fitted = true; }), "a pass takes fitted maps, but none were fitted");
+    EXPECT_EQ(complaint_of([&] { backend.fit_maps({}); }), "fit: the extent is empty");
+    std::vector<ComputeStep> const without_shader(1);
+    EXPECT_EQ(complaint_of([&] {
+                  backend.fit_maps({{8, 8}, glm::mat4(1.0f), without_shader, {}, 0});
+              }),
+              "fit: a step has no shader");
     Scene broken = world.scene;
     broken.objects[1].index_count = 300;
     EXPECT_EQ(complaint_of([&] { backend.upload(broken); }),

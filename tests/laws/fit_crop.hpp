@@ -49,19 +49,21 @@ template <class T>
     return true;
 }
 
+template <class T>
+[[nodiscard]] bool is_seen(ViewVolume<T> const& slice, Vec3<T> const& point) {
+    ViewVolume<long double> const volume = widened_to_long(slice);
+    Vec3<long double> const arm = Vec3<long double>(point) - volume.pose.position;
+    long double const depth = glm::dot(arm, volume.pose.forward);
+    long double const spread = volume.kind == ViewKind::perspective ? depth : 1;
+    long double const x = glm::dot(arm, volume.pose.right), y = glm::dot(arm, volume.pose.up);
+    return depth >= volume.z_near && depth <= volume.z_far && x >= volume.left * spread && x <= volume.right * spread &&
+           y >= volume.bottom * spread && y <= volume.top * spread;
+}
+
 // The eye sees the point, and the light's pyramid holds it.
 template <class T>
 [[nodiscard]] bool is_seen_and_lit(ViewVolume<T> const& slice, Light<T> const& light, Vec3<T> const& point) {
-    auto const holds = [](ViewVolume<long double> const& volume, Vec3<long double> const& at) {
-        Vec3<long double> const arm = at - volume.pose.position;
-        long double const depth = glm::dot(arm, volume.pose.forward);
-        long double const spread = volume.kind == ViewKind::perspective ? depth : 1;
-        long double const x = glm::dot(arm, volume.pose.right), y = glm::dot(arm, volume.pose.up);
-        return depth >= volume.z_near && depth <= volume.z_far && x >= volume.left * spread &&
-               x <= volume.right * spread && y >= volume.bottom * spread && y <= volume.top * spread;
-    };
-    Vec3<long double> const at(point);
-    return holds(widened_to_long(slice), at) && holds(widened_to_long(spot_view(light, light.range / T(4096))), at);
+    return is_seen(slice, point) && is_seen(spot_view(light, light.range / T(4096)), point);
 }
 
 // A receiver in the lit part of the slice lies inside the map, with the filter's margin; `slack` in NDC.

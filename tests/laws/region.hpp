@@ -62,4 +62,30 @@ template <class T>
     return true;
 }
 
+// Bounds of many boxes hold those of each, and are no larger than all of theirs: to the roundings of a product of four
+// and a quotient, 32 of numbers as large as the largest |row| |corner| / w_min or the bounds themselves.
+template <class T>
+[[nodiscard]] bool are_the_merged_bounds(Mat4<T> const& clip_from_world, Aabb<T> const* boxes, int count, T w_min,
+                                         Aabb<T> const& together) {
+    Aabb<T> merged;
+    long double reach = 1;
+    for (int i = 0; i < count; ++i) {
+        if (!all_finite(boxes[i]) || is_empty(boxes[i])) continue;
+        Aabb<T> const own = projected_bounds(clip_from_world, corners(boxes[i]), w_min);
+        if (!is_empty(own)) merged = merge(merged, own);
+        for (Vec3<T> const& corner : corners(boxes[i])) reach = std::max(reach, glm::length(Vec3<long double>(corner)));
+    }
+    if (is_empty(merged) || is_empty(together)) return is_empty(merged) == is_empty(together);
+    long double const unit = 32 * static_cast<long double>(std::numeric_limits<T>::epsilon()) * reach;
+    long double const w_noise = unit * glm::length(Vec4<long double>(row(clip_from_world, 3)));
+    long double const w = std::max(static_cast<long double>(w_min), 1e-6L);
+    for (int axis = 0; axis < 3; ++axis) {
+        long double const lo = merged.lo[axis], hi = merged.hi[axis];
+        long double const row_noise = unit * glm::length(Vec4<long double>(row(clip_from_world, axis)));
+        long double const noise = (row_noise + w_noise * std::max(std::abs(lo), std::abs(hi))) / w;
+        if (std::abs(together.lo[axis] - lo) > noise || std::abs(together.hi[axis] - hi) > noise) return false;
+    }
+    return true;
+}
+
 }  // namespace shadowmath::laws

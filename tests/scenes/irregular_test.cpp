@@ -60,11 +60,11 @@ public:
         tree_ = rtcNewScene(device_);
         rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
         RTCGeometry const mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* const v = static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                                                    scene.positions.size() / 3));
+        auto* const v = static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                    12, scene.positions.size() / 3));
         std::ranges::copy(scene.positions, v);
-        auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, scene.triangle_count()));
+        auto* const indices = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, scene.triangle_count()));
         for (std::uint32_t i = 0; i < 3 * scene.triangle_count(); ++i) indices[i] = i;
         rtcSetGeometryOccludedFilterFunction(mesh, reject_contact);
         rtcCommitGeometry(mesh);
@@ -160,8 +160,10 @@ Compared compare(CasterScene const& scene) {
             }
             MicroQuad<double> const quad = micro_quad(exact, x, y, d, n);
             glm::dvec3 const middle = point_on(exact, quad, x, y, 0.5, 0.5);
-            double const facing = glm::dot(n, context.travel) * glm::dot(n, middle - context.eye);
-            if (std::abs(facing) < 1e-5 * d) continue;
+            double const toward_light = glm::dot(n, context.travel);
+            // At less than a twentieth of a degree, rounding of the ray's origin moves shadows by a millimetre and more.
+            if (std::abs(toward_light) < 1e-3) continue;
+            double const facing = toward_light * glm::dot(n, middle - context.eye);
             compared.samples += 32;
             if (facing < 0.0) {
                 EXPECT_EQ(masks[pixel], every_sample);
@@ -209,9 +211,21 @@ constexpr float aspect = static_cast<float>(width) / height;
 
 }  // namespace
 
-TEST(IrregularAgainstRays, AgreesOnAHundredThousandTrianglesOfTerrain) { expect_agreement(terrain_scene(100000, aspect)); }
-TEST(IrregularAgainstRays, AgreesOnAHundredThousandTrianglesOfBoxes) { expect_agreement(boxes_scene(100000, aspect)); }
-TEST(IrregularAgainstRays, AgreesOnAHundredThousandTrianglesOfLeaves) { expect_agreement(leaves_scene(100000, aspect)); }
-TEST(IrregularAgainstRays, AgreesOnAMillionTrianglesOfTerrain) { expect_agreement(terrain_scene(1000000, aspect)); }
-TEST(IrregularAgainstRays, AgreesOnAMillionTrianglesOfBoxes) { expect_agreement(boxes_scene(1000000, aspect)); }
-TEST(IrregularAgainstRays, AgreesOnAMillionTrianglesOfLeaves) { expect_agreement(leaves_scene(1000000, aspect)); }
+TEST(IrregularAgainstRays, AgreesOnAHundredThousandTrianglesOfTerrain) {
+    expect_agreement(terrain_scene(100000, aspect));
+}
+TEST(IrregularAgainstRays, AgreesOnAHundredThousandTrianglesOfBoxes) {
+    expect_agreement(boxes_scene(100000, aspect));
+}
+TEST(IrregularAgainstRays, AgreesOnAHundredThousandTrianglesOfLeaves) {
+    expect_agreement(leaves_scene(100000, aspect));
+}
+TEST(IrregularAgainstRays, AgreesOnAMillionTrianglesOfTerrain) {
+    expect_agreement(terrain_scene(1000000, aspect));
+}
+TEST(IrregularAgainstRays, AgreesOnAMillionTrianglesOfBoxes) {
+    expect_agreement(boxes_scene(1000000, aspect));
+}
+TEST(IrregularAgainstRays, AgreesOnAMillionTrianglesOfLeaves) {
+    expect_agreement(leaves_scene(1000000, aspect));
+}

@@ -58,6 +58,21 @@ TEST(Choose, IsNoWorseThanAnyOptionsThatOneMightTry) {
     }
 }
 
+// Between the eleven values first tried it goes on: a hundred values for its own count and fit find nothing better.
+TEST(Choose, PlacesTheSplitsToAHundredth) {
+    Chosen const chosen;
+    for (int const count : {2, 3, 4}) {
+        ChoiceLimits<double> limits;
+        limits.most_maps = count;
+        Choice<double> const choice = chosen.within(limits);
+        CascadeOptions<double> options = choice.options;
+        for (int i = 0; i <= 100; ++i) {
+            options.lambda = 0.01 * i;
+            EXPECT_LE(choice.judgement.all.worst, chosen.worst_of(options, limits) * 1.01) << count << ' ' << i;
+        }
+    }
+}
+
 TEST(Choose, GainsWithFreedomAndWithTexels) {
     Chosen const chosen;
     ChoiceLimits<double> limits;

@@ -63,6 +63,8 @@ TEST(PageFor, TakesTheTexelThatAPixelCanTell) {
     EXPECT_EQ(page_for(map, axes.x * 7.9, 1e-6).level, 0);
     EXPECT_EQ(page_for(map, axes.x * 8.1, 1e-6).level, 1);
     EXPECT_EQ(page_for(map, axes.x * 8.1, 1e-6, 17).level, -1);
+    for (double const side : {-7.9, 7.9})
+        for (V3 const& axis : {axes.x, axes.y}) EXPECT_EQ(page_for(map, axis * side, 1e-6, 1).level, 1) << side;
     EXPECT_EQ(page_for(map, axes.x * 1e9, 1.0).level, -1);
     EXPECT_EQ(page_for(map, V3(0.0), std::numeric_limits<double>::quiet_NaN()).level, -1);
     EXPECT_EQ(page_for(map, V3(std::numeric_limits<double>::infinity()), 1.0).level, -1);

@@ -71,7 +71,8 @@ TEST(House, HeadersIncludeGlmAndLightStandardHeadersOnly) {
                                          "glm/glm.hpp", "cassert", "shadowmath_user_config.hpp"};
     for (fs::path const& header : sources_under("include/shadowmath"))
         for (std::string const& included : includes_of(header))
-            EXPECT_TRUE(light.count(included) == 1 || included.rfind("shadowmath/", 0) == 0)
+            EXPECT_TRUE(light.count(included) == 1 || included.rfind("shadowmath/", 0) == 0 ||
+                        (included == "immintrin.h" && header.filename() == "lanes.hpp"))
                 << header << " includes " << included;
 }
 
@@ -137,7 +138,8 @@ TEST(House, EveryHeaderHasLawsOrAUnitTest) {
     for (fs::path const& header : sources_under("include/shadowmath")) {
         std::string const name = header.stem().string();
         // Without a function of their own: macros and names, and what only other headers call.
-        if (name == "version" || name == "config" || name == "shadowmath" || name == "reach") continue;
+        if (name == "version" || name == "config" || name == "shadowmath" || name == "irregular" || name == "reach")
+            continue;
         bool const covered = fs::exists(root / "tests/laws" / header.filename()) ||
                              fs::exists(root / "tests/unit" / (name + "_test.cpp"));
         EXPECT_TRUE(covered) << header;

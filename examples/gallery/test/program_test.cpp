@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -138,6 +139,54 @@ TEST_F(Gallery, RecordsEveryFigureOfEveryPicture) {
             EXPECT_TRUE(claim.at(name).is_string());
     EXPECT_EQ(results.at("settings").at("width"), 160);
     EXPECT_NE(results.at("machine").at("backends").at(0).at("driver"), "");
+}
+
+bool is_mesa_software(nlohmann::json const& results) {
+    return std::ranges::all_of(results.at("machine").at("backends"), [](auto const& backend) {
+        return backend.at("driver").template get<std::string>().find("llvmpipe") != std::string::npos;
+    });
+}
+
+TEST_F(Gallery, MeasuresEveryWayToDrawTheMapsOfEachSceneAndDriver) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    std::map<std::string, std::set<std::string>> ways;
+    for (auto const& way : results.at("ways")) {
+        auto const name = way.at("way").get<std::string>();
+        std::string const key = way.at("scene").get<std::string>() + " / " + way.at("backend").get<std::string>();
+        EXPECT_TRUE(ways[key].insert(name).second) << key << ": " << name << " twice";
+        for (char const* figure : {"passes", "draw_calls", "vertices", "triangles", "maps", "maps_in_memory"})
+            EXPECT_GT(way.at(figure).get<long>(), 0) << key << ": " << name << ": " << figure;
+        EXPECT_GT(way.at("milliseconds").get<double>(), 0.0);
+        EXPECT_GT(way.at(way.at("with_picture").get<bool>() ? "pixels" : "texels").get<long>(), 0) << name;
+        if (is_mesa_software(results)) {
+            EXPECT_EQ(way.at("unlike_texels"), 0) << key << ": " << name;
+            EXPECT_TRUE(way.at("driver").is_object()) << key << ": " << name;
+        }
+    }
+    EXPECT_EQ(ways.size(), results.at("scenes").size() * results.at("machine").at("backends").size());
+    for (auto const& [key, names] : ways)
+        for (char const* name : {"one pass a map", "all maps, then the picture", "split by split"})
+            EXPECT_TRUE(names.count(name)) << key << ": " << name;
+}
+
+TEST_F(Gallery, TellsAtLastHowManyPixelsTheDriversDrawUnlike) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    auto const& drivers = results.at("machine").at("backends");
+    EXPECT_EQ(results.at("parity").size(), results.at("scenes").size() * (drivers.size() - 1));
+    if (drivers.size() < 2) GTEST_SKIP() << "NOT TESTED: parity of drivers, for there is one alone";
+    long unlike = 0, pixels = 0;
+    for (auto const& parity : results.at("parity")) {
+        unlike += parity.at("unlike_pixels").get<long>();
+        pixels += parity.at("pixels").get<long>();
+        EXPECT_GT(parity.at("covered_texels").get<long>(), 0);
+        if (!is_mesa_software(results)) continue;
+        EXPECT_EQ(parity.at("covered_in_one"), 0) << parity.dump();
+        EXPECT_LE(parity.at("largest_ulp").get<long>(), 2) << parity.dump();
+        EXPECT_EQ(parity.at("unlike_off_edges"), 0) << parity.dump();
+    }
+    std::string const last = ": " + std::to_string(unlike) + " of " + std::to_string(pixels) + " pixels unlike\n";
+    ASSERT_GE(made_.out.size(), last.size());
+    EXPECT_EQ(made_.out.substr(made_.out.size() - last.size()), last);
 }
 
 TEST_F(Gallery, ShowsFewWrongPixelsOnACube) {

@@ -36,7 +36,7 @@ namespace shadowmath {
 inline namespace v0 {
 
 inline constexpr int tile_side = 4;
-inline constexpr int level_shift = 2;     // a texel is 4 x 4 of the next finer level
+inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
 inline constexpr int most_levels = 8;
 inline constexpr int most_divisions = 5;  // of a texel of the finest level: 2^5 x 2^5 parts
 inline constexpr int largest_grid = 1 << 11;
@@ -47,8 +47,8 @@ template <class T>
 struct Receivers {
     T const* position = nullptr;  // world; three scalars a pixel, `position_stride` apart
     int position_stride = 3;
-    T const* depth = nullptr;     // instead of positions: metres along the view's forward axis, one a pixel
-    T const* normal = nullptr;    // of the surface, not for shading; any length and sign
+    T const* depth = nullptr;   // instead of positions: metres along the view's forward axis, one a pixel
+    T const* normal = nullptr;  // of the surface, not for shading; any length and sign
     int normal_stride = 3;
 };
 
@@ -62,8 +62,8 @@ struct PixelRect {
 
 // What the lists of a buffer came to.
 struct ListCounts {
-    std::uint32_t tiles = 0;    // with a pixel that light may reach
-    std::uint32_t parts = 0;    // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
+    std::uint32_t tiles = 0;  // with a pixel that light may reach
+    std::uint32_t parts = 0;  // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
     std::uint32_t nodes = 0;
     std::uint32_t lists = 0;    // texels that are not empty
     std::uint32_t longest = 0;  // nodes in one texel
@@ -95,7 +95,7 @@ struct IrregularBuffer {
     T texel_error_here = T(0);  // and whatever the distance
     T depth_error = T(0);
     T depth_error_here = T(0);
-    T contact_reach = T(0);     // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
+    T contact_reach = T(0);  // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
     T contact_ray = T(0);
     int tiles_across = 0;
     int tile_count = 0;
@@ -121,10 +121,10 @@ struct IrregularBuffer {
     std::uint32_t* first = nullptr;  // node of each list, one more at the end
 
     // Texels of the finest level.
-    T* texel_depth = nullptr;                // far end over the nodes that touch it
-    std::uint32_t* texel_levels = nullptr;   // bit l: level l has a node here
-    std::uint32_t* texel_lists = nullptr;    // place in `first`: nodes too wide for its divisions, then the divisions
-    std::uint32_t* texel_division = nullptr; // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
+    T* texel_depth = nullptr;                 // far end over the nodes that touch it
+    std::uint32_t* texel_levels = nullptr;    // bit l: level l has a node here
+    std::uint32_t* texel_lists = nullptr;     // place in `first`: nodes too wide for its divisions, then the divisions
+    std::uint32_t* texel_division = nullptr;  // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
     // For trace: triangles are put in order of their texels, a block at a time.
     std::uint32_t* block_texel = nullptr;
@@ -352,8 +352,9 @@ struct TileKernel {
         auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
         int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
         for (int j = 0; j < tile_side; ++j) {
-            std::size_t const pixel = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
-                                      static_cast<std::size_t>(column);
+            std::size_t const pixel =
+                static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                static_cast<std::size_t>(column);
             for (int i = 0; i < tile_side; ++i) {
                 std::size_t const at = pixel + static_cast<std::size_t>(i < columns ? i : 0);
                 int const k = j * tile_side + i;
@@ -396,7 +397,7 @@ struct TileKernel {
         Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
         Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
         Lanes const m[3] = {Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2])};
-        auto const dot = [&all](Vec3<T> const& v, Lanes const (&a)[3]) {
+        auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
             return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
         };
         Lanes depth = Lanes::load(in[3]);
@@ -425,7 +426,8 @@ struct TileKernel {
         if (sound == 0) return;
 
         // Light and eye on the same side?
-        Lanes travel = fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
+        Lanes travel =
+            fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
             travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
         Lanes const under = zero - tiny;
@@ -484,14 +486,16 @@ struct TileKernel {
         T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
         // With the rounding of the division put right, where operations are fused.
         T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
-        Lanes const exact = flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
+        Lanes const exact =
+            flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
         chosen(seen.alive, exact - to_corner, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
 
     // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
-    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across) const noexcept {
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part,
+                int pixels_across) const noexcept {
         if (part == 0) return;
         Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
@@ -532,7 +536,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
     T scale[4];
     for (int i = 0; i < 4; ++i) {
         Vec4<T> const r = row(canonical, i);
-        scale[i] = std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+        scale[i] =
+            std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
     }
     // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
     Vec4<T> const image = canonical * source;
@@ -564,7 +569,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
 template <class T>
 [[nodiscard]] inline PixelPlane<T> plane_of_row(PixelFrame<T> const& frame, Vec4<T> const& row) noexcept {
     Vec3<T> const axis(row);
-    T const offset = row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
+    T const offset =
+        row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
     return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
 }
 
@@ -614,13 +620,15 @@ template <class T>
     };
     buffer.quad = take(scalars, 3 * lane_count * tiles);
     buffer.tile_q = take(scalars, tiles);
-    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
+    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth})
+        *array = take(scalars, nodes);
     buffer.texel_depth = take(scalars, texels);
     parts.bounds = scalars;
     buffer.mask = take(words, lane_count * tiles);
     buffer.state = take(words, 2 * tiles);
     buffer.tile = take(words, nodes);
-    for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division}) *array = take(words, texels);
+    for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division})
+        *array = take(words, texels);
     buffer.block_count = take(words, texels + 2);
     buffer.block_texel = take(words, caster_block);
     buffer.block_order = take(words, caster_block);
@@ -682,22 +690,22 @@ template <class T, class Lanes = BestLanes<T>>
         rows[k] = T(k / tile_side);
     }
     Vec4<T> const* const row = buffer.row;
-    detail::TileKernel<Lanes> const kernel{
-        buffer,
-        receivers,
-        {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]), detail::plane_of_row(frame, row[2]),
-         detail::plane_of_row(frame, row[3])},
-        grid.w_min > T(0) ? grid.w_min : T(0),
-        detail::turn_limit(frame),
-        Lanes::load(columns),
-        Lanes::load(rows),
-        flat,
-        Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
+    detail::TileKernel<Lanes> const kernel{buffer,
+                                           receivers,
+                                           {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]),
+                                            detail::plane_of_row(frame, row[2]), detail::plane_of_row(frame, row[3])},
+                                           grid.w_min > T(0) ? grid.w_min : T(0),
+                                           detail::turn_limit(frame),
+                                           Lanes::load(columns),
+                                           Lanes::load(rows),
+                                           flat,
+                                           Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
     Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);
     Lanes least_w = huge, most_w = low;
     typename detail::TileKernel<Lanes>::Seen seen;
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
-        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side, rect.y + tile / buffer.tiles_across * tile_side, seen);
+        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side,
+                   rect.y + tile / buffer.tiles_across * tile_side, seen);
         std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
         for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
         buffer.state[2 * tile] = seen.alive;

@@ -147,7 +147,9 @@ struct Avx512Doubles {
     __m512d first;
     __m512d second;
 
-    [[nodiscard]] static Avx512Doubles all(double value) noexcept { return {_mm512_set1_pd(value), _mm512_set1_pd(value)}; }
+    [[nodiscard]] static Avx512Doubles all(double value) noexcept {
+        return {_mm512_set1_pd(value), _mm512_set1_pd(value)};
+    }
     [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
         return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
     }
@@ -165,11 +167,14 @@ struct Avx512Doubles {
     friend Avx512Doubles operator*(Avx512Doubles a, Avx512Doubles b) noexcept {
         return {_mm512_mul_pd(a.first, b.first), _mm512_mul_pd(a.second, b.second)};
     }
-    friend Avx512Doubles absolute(Avx512Doubles a) noexcept { return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)}; }
+    friend Avx512Doubles absolute(Avx512Doubles a) noexcept {
+        return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)};
+    }
     friend Avx512Doubles with_sign_of(Avx512Doubles magnitude, Avx512Doubles sign) noexcept {
         __m512i const top = _mm512_set1_epi64(std::numeric_limits<std::int64_t>::min());
         auto const signed_as = [top](__m512d m, __m512d s) {
-            return _mm512_castsi512_pd(_mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
+            return _mm512_castsi512_pd(
+                _mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
         };
         return {signed_as(magnitude.first, sign.first), signed_as(magnitude.second, sign.second)};
     }

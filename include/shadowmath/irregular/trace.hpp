@@ -65,12 +65,12 @@ struct TraceKernel {
 
     // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
     struct Batch {
-        std::uint32_t sound;              // bit k: triangle k may take light from a receiver
-        T vertex[3][3][lane_count];       // world
-        T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
-        T depth[lane_count];              // the end nearest to the light
-        Real plane[4][4][lane_count];     // x, y, a, b of the four half spaces
-        Lanes reach;                      // metres from the eye, at most
+        std::uint32_t sound;           // bit k: triangle k may take light from a receiver
+        T vertex[3][3][lane_count];    // world
+        T bounds[4][lane_count];       // lo x, hi x, lo y, hi y in texels
+        T depth[lane_count];           // the end nearest to the light
+        Real plane[4][4][lane_count];  // x, y, a, b of the four half spaces
+        Lanes reach;                   // metres from the eye, at most
     };
 
     // Tiles that a triangle may touch, in the order of its lists, some of them twice.
@@ -106,7 +106,8 @@ struct TraceKernel {
         for (std::uint32_t n = 0; n < kept; ++n) {
             std::uint32_t const tile = queue.tile[n];
             T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-            Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
+            Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count),
+                        q_y = Lanes::load(quads + 2 * lane_count);
             Real const x = Real(static_cast<int>(tile % tiles_across * tile_side)) + left;
             Real const y = Real(static_cast<int>(tile / tiles_across * tile_side)) + bottom;
             auto const tile_q = Real(buffer.tile_q[tile]);
@@ -116,8 +117,10 @@ struct TraceKernel {
             for (int i = 0; i < 4; ++i) {
                 // Here large terms cancel; what is left is no more than a tile's worth.
                 Real const* const plane = p + 4 * lane_count * i;
-                Real const here = plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
-                c[i] = fused(bs[i], q, fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
+                Real const here =
+                    plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
+                c[i] = fused(bs[i], q,
+                             fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
                 gain_x[i] = fused(bs[i], q_x, xs[i]);
                 gain_y[i] = fused(bs[i], q_y, ys[i]);
                 // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
@@ -128,8 +131,8 @@ struct TraceKernel {
     }
 
     // The pixels of a tile that a triangle touches, with their lines.
-    void darken(std::uint32_t tile, std::uint32_t alive, std::uint32_t touched, Lanes const (&c)[4], Lanes const (&gain_x)[4],
-                Lanes const (&gain_y)[4]) const noexcept {
+    void darken(std::uint32_t tile, std::uint32_t alive, std::uint32_t touched, Lanes const (&c)[4],
+                Lanes const (&gain_x)[4], Lanes const (&gain_y)[4]) const noexcept {
         Lanes const zero = Lanes::all(T(0));
         std::uint32_t done = touched;
         T lines[4][3][lane_count];
@@ -180,8 +183,10 @@ struct TraceKernel {
     // Queues the tiles of those nodes of [node, end) that the triangle may touch.
     void scan(std::uint32_t node, std::uint32_t end, Probe const& probe, Queue& queue) const noexcept {
         for (; node < end; node += lane_count) {
-            std::uint32_t hit = at_least(probe.hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
-                                at_least(probe.hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
+            std::uint32_t hit = at_least(probe.hi_x, Lanes::load(buffer.lo_x + node)) &
+                                at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
+                                at_least(probe.hi_y, Lanes::load(buffer.lo_y + node)) &
+                                at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
                                 at_least(Lanes::load(buffer.depth + node), probe.depth);
             if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
             queue.count += Lanes::compress(hit, buffer.tile + node, queue.tile + queue.count);
@@ -195,8 +200,14 @@ struct TraceKernel {
         PlaceRange const texels = texels_of(places, 0);
         std::uint32_t levels = levels_at(texels, batch.depth[k]);
         if (levels == 0) return;
-        Probe const probe{Lanes::all(batch.bounds[0][k]), Lanes::all(batch.bounds[1][k]), Lanes::all(batch.bounds[2][k]),
-                          Lanes::all(batch.bounds[3][k]), Lanes::all(batch.depth[k]), batch, k, stamp};
+        Probe const probe{Lanes::all(batch.bounds[0][k]),
+                          Lanes::all(batch.bounds[1][k]),
+                          Lanes::all(batch.bounds[2][k]),
+                          Lanes::all(batch.bounds[3][k]),
+                          Lanes::all(batch.depth[k]),
+                          batch,
+                          k,
+                          stamp};
         std::uint32_t const* const first = buffer.first;
         if ((levels & 1u) != 0)
             for (int y = texels.y0; y <= texels.y1; ++y)
@@ -271,14 +282,16 @@ struct TraceKernel {
     // Bounds in the grid, and which of the sixteen reach a receiver's.
     void find(Batch& batch) const noexcept {
         auto const all = [](T value) { return Lanes::all(value); };
-        Lanes const largest_number = all(std::numeric_limits<T>::max()), lowest_number = all(std::numeric_limits<T>::lowest());
+        Lanes const largest_number = all(std::numeric_limits<T>::max()),
+                    lowest_number = all(std::numeric_limits<T>::lowest());
         Lanes at[3][4];
         Lanes least_w = largest_number, most_w = lowest_number;
         std::uint32_t sound = batch.sound;
         batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
             Vec3<T> const& eye = buffer.frame.eye;
-            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x), y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
+            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x),
+                        y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
                         z = Lanes::load(batch.vertex[i][2]) - all(eye.z);
             Lanes const away = absolute(x) + absolute(y) + absolute(z);
             sound &= at_least(all(farthest_vertex<T>), away);
@@ -328,14 +341,16 @@ struct TraceKernel {
         }
         // What rounding may add, so that no texel is missed.
         Lanes const steepest = reciprocal(most(least_w, floor));
-        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
+        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)),
+                                all(T(1) / T(128)));
         lo_x = lo_x - pad;
         hi_x = hi_x + pad;
         lo_y = lo_y - pad;
         hi_y = hi_y + pad;
         depth = depth - steepest * fused(batch.reach, all(buffer.depth_error), all(buffer.depth_error_here));
-        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) & at_least(all(buffer.most_y), lo_y) &
-                 at_least(hi_y, all(buffer.least_y)) & at_least(all(buffer.most_depth), depth);
+        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) &
+                 at_least(all(buffer.most_y), lo_y) & at_least(hi_y, all(buffer.least_y)) &
+                 at_least(all(buffer.most_depth), depth);
         lo_x.store(batch.bounds[0]);
         hi_x.store(batch.bounds[1]);
         lo_y.store(batch.bounds[2]);
@@ -350,8 +365,11 @@ struct TraceKernel {
         for (int i = 0; i < 3; ++i) {
             auto const from_eye = [&](int axis) { return Wide::load(batch.vertex[i][axis]) - all(frame.eye[axis]); };
             Triple<Wide> const v{from_eye(0), from_eye(1), from_eye(2)};
-            auto const along = [&](Vec3<Real> const& axis) { return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v); };
-            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
+            auto const along = [&](Vec3<Real> const& axis) {
+                return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v);
+            };
+            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y),
+                    along(frame.to_inward)};
         }
         T reach[lane_count];
         batch.reach.store(reach);
@@ -423,11 +441,13 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
     T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
     PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
-    detail::TraceKernel<Lanes> const kernel{buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
+    detail::TraceKernel<Lanes> const kernel{
+        buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
     typename detail::TraceKernel<Lanes>::Batch batch;
     typename detail::TraceKernel<Lanes>::Queue queue;
     for (std::uint32_t done = 0; done < count;) {
-        std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
+        std::uint32_t const block =
+            count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
         kernel.run_block(first + done, block, batch, queue);
         done += block;
     }
@@ -445,7 +465,8 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
             std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
             continue;
         }
-        std::uint32_t const* in = buffer.mask + static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
+        std::uint32_t const* in = buffer.mask +
+                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
                                   row % tile_side * tile_side;
         for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
             int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;

@@ -74,5 +74,4 @@ class CloseUp {
 function closeUps() {
   if (!data.close_ups.length) { byId("close-ups").hidden = true; return; }
   for (const shot of data.close_ups) byId("close-up-list").append(new CloseUp(shot).body);
-  byId("nav").querySelector('[href="#claims"]').before(element("a", { href: "#close-ups" }, "Close-ups"));
 }

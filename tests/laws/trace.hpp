@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// Laws of frustum tracing. The truth is a segment and a triangle, in long double, sample by sample.
+#pragma once
+
+#include "tests/support/traced.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace shadowmath::laws {
+
+using Real = long double;
+
+enum class Answer { lit, dark, undecided };
+
+// Does the segment from the sample to the light meet the triangle? Undecided where moving anything by `slack` metres
+// could change that; `contact` is how far off its plane the sample must be.
+inline Answer meets(Vec3<Real> const& sample, Light<Real> const& light, test::Triangle<Real> const& t, Real contact,
+                    Real slack) {
+    Vec3<Real> const normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    Real const area = glm::length(normal);
+    bool const sun = light.kind == LightKind::directional;
+    Vec3<Real> const way = sun ? -light.direction : light.position - sample;
+    Real const slope = glm::dot(normal, way);
+    Real const reach = glm::length(way);
+    if (!(area > 0)) return Answer::undecided;
+    // Signed volumes: positive on the inner side of each edge.
+    Real const turn = slope < 0 ? Real(-1) : Real(1);
+    Answer answer = Answer::dark;
+    auto const require = [&](Real inside, Real margin) {
+        if (inside < -margin) answer = Answer::lit;
+        if (std::abs(inside) <= margin && answer == Answer::dark) answer = Answer::undecided;
+    };
+    bool outside = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vec3<Real> const a = t[i] - sample, b = t[(i + 1) % 3] - sample;
+        Vec3<Real> const side = glm::cross(a, b);
+        // d/d(sample) of the volume: no more than the edge's length times the way's.
+        Real const value = glm::dot(side, way) * turn,
+                   gain = (glm::length(b - a) + glm::length(a) * Real(1e-3)) * reach;
+        outside = outside || value < -slack * gain;
+        require(value, slack * gain);
+    }
+    if (outside) return Answer::lit;
+    Real const behind = -glm::dot(normal, sample - t[0]) * turn / area;
+    Real const weight = (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / area;
+    if (behind < -slack) return Answer::lit;
+    // Within the margin of contact either answer will do: its exact extent is no law.
+    if (behind < 2 * weight * contact + slack && answer != Answer::lit) answer = Answer::undecided;
+    if (!sun) {
+        Real const lamp = glm::dot(normal, light.position - t[0]) * turn / area;
+        if (lamp < -slack) return Answer::lit;
+        if (lamp < slack && answer == Answer::dark) answer = Answer::undecided;
+    }
+    return answer;
+}
+
+// Every bit of the mask is what the truth says, wherever the truth is decided.
+template <class T>
+[[nodiscard]] bool agrees_with_segments(test::PlanePicture<T> const& picture, std::vector<std::uint32_t> const& masks,
+                                        std::vector<test::Triangle<T>> const& casters, Light<T> const& light) {
+    PixelFrame<Real> const frame = frame_in<Real>(picture.frame);
+    Light<Real> exact;
+    exact.kind = light.kind;
+    exact.direction = Vec3<Real>(light.direction);
+    exact.position = Vec3<Real>(light.position);
+    Real const eps = std::numeric_limits<T>::epsilon();
+    for (std::size_t pixel = 0; pixel < masks.size(); ++pixel) {
+        if (!(picture.depth[pixel] > T(0))) {
+            if (masks[pixel] != 0) return false;
+            continue;
+        }
+        auto const column = static_cast<int>(pixel % static_cast<std::size_t>(picture.frame.width));
+        auto const row = static_cast<int>(pixel / static_cast<std::size_t>(picture.frame.width));
+        Vec3<Real> const normal(picture.normal);
+        MicroQuad<Real> const quad = micro_quad(frame, column, row, Real(picture.depth[pixel]), normal);
+        for (int s = 0; s < samples_per_pixel; ++s) {
+            Vec3<Real> const at =
+                point_on(frame, quad, column, row, pixel_samples<Real>.u[s], pixel_samples<Real>.v[s]);
+            Real far = glm::length(at) + glm::length(at - frame.eye) + glm::length(frame.eye);
+            Answer wanted = Answer::lit;
+            for (test::Triangle<T> const& caster : casters) {
+                test::Triangle<Real> const t{Vec3<Real>(caster[0]), Vec3<Real>(caster[1]), Vec3<Real>(caster[2])};
+                Real reach = far;
+                for (Vec3<Real> const& p : t) reach += glm::length(p);
+                Answer const answer = meets(at, exact, t, 4 * contact_share<Real> * (1 + reach), 64 * eps * reach);
+                if (answer == Answer::dark) wanted = Answer::dark;
+                if (answer == Answer::undecided && wanted == Answer::lit) wanted = Answer::undecided;
+                if (wanted == Answer::dark) break;
+            }
+            bool const dark = (masks[pixel] >> s & 1u) != 0;
+            Real const lit_side = glm::dot(normal, toward(exact, at)) * glm::dot(normal, frame.eye - at);
+            if (std::abs(lit_side) < 1e-4L * glm::length(frame.eye - at)) continue;
+            if (lit_side < 0) wanted = Answer::dark;
+            if (wanted != Answer::undecided && dark != (wanted == Answer::dark)) return false;
+        }
+    }
+    return true;
+}
+
+// No bit of `fewer` is missing in `more`.
+[[nodiscard]] inline bool only_adds(std::vector<std::uint32_t> const& fewer, std::vector<std::uint32_t> const& more) {
+    for (std::size_t i = 0; i < fewer.size(); ++i)
+        if ((fewer[i] & ~more[i]) != 0) return false;
+    return fewer.size() == more.size();
+}
+
+}  // namespace shadowmath::laws

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/microquad.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace shadowmath;
+
+namespace {
+
+using V = Vec3<double>;
+
+ViewVolume<double> off_centre_eye(ViewKind kind) {
+    ViewVolume<double> eye;
+    eye.pose = pose_looking(V(3, 5, 2), V(0.3, -0.8, -0.5), V(0, 1, 0));
+    eye.left = -0.4;
+    eye.right = 0.9;
+    eye.bottom = -0.7;
+    eye.top = 0.2;
+    eye.kind = kind;
+    return eye;
+}
+
+}  // namespace
+
+TEST(PixelFrame, PutsWhatIsSeenAtAPixelThere) {
+    for (ViewKind const kind : {ViewKind::perspective, ViewKind::orthographic})
+        for (YAxis const rows : {YAxis::up, YAxis::down}) {
+            ViewVolume<double> const eye = off_centre_eye(kind);
+            PixelFrame<double> const frame = pixel_frame(eye, 640, 360, rows);
+            // The corner of least x and greatest y of the picture, seven metres away.
+            V const at = point_in_pixels(frame, point_at(eye, eye.left, eye.top, 7.0));
+            double const depth = kind == ViewKind::perspective ? 7.0 : 1.0;
+            EXPECT_NEAR(at.x / depth, -320.0, 1e-9);
+            EXPECT_NEAR(at.y / depth, rows == YAxis::up ? 180.0 : -180.0, 1e-9);
+            EXPECT_NEAR(at.z, 7.0, 1e-12);
+            PixelFrame<double> const same = frame_in<double>(frame);
+            EXPECT_LT(glm::length(same.to_across - frame.to_across), 1e-9 * glm::length(frame.to_across));
+            EXPECT_LT(glm::length(same.to_upward - frame.to_upward), 1e-9 * glm::length(frame.to_upward));
+            EXPECT_LT(glm::length(same.to_inward - frame.to_inward), 1e-12);
+        }
+}
+
+TEST(PixelFrame, SaysWhatIsWrongWithTheView) {
+    EXPECT_TRUE(pixel_frame(off_centre_eye(ViewKind::perspective), 0, 10).faults.has(Fault::map_too_small));
+    ViewVolume<double> crossed = off_centre_eye(ViewKind::perspective);
+    crossed.left = 2.0;
+    EXPECT_TRUE(pixel_frame(crossed, 10, 10).faults.has(Fault::bad_frustum));
+}
+
+TEST(MicroQuad, EverySampleLiesOnThePlaneAndInThePixel) {
+    for (ViewKind const kind : {ViewKind::perspective, ViewKind::orthographic}) {
+        PixelFrame<double> const frame = pixel_frame(off_centre_eye(kind), 64, 36);
+        for (V const& normal : {V(0, 1, 0), V(0.2, 3.0, -0.4), V(0, -1, 0.3)}) {
+            bool const flat = kind == ViewKind::orthographic;
+            V const ray = frame.across * (10.5 - 32.0 + frame.origin.x) + frame.upward * (20.5 - 18.0 + frame.origin.y);
+            V const point = flat ? frame.eye + ray + frame.inward * 6.0 : frame.eye + (frame.inward + ray) * 6.0;
+            MicroQuad<double> const quad = micro_quad(frame, 10, 20, 6.0, normal);
+            ASSERT_TRUE(quad.ok);
+            for (double const u : {0.0, 0.5, 1.0})
+                for (double const v : {0.0, 0.3, 1.0})
+                    EXPECT_TRUE(laws::is_on_the_plane_and_in_the_pixel(frame, quad, 10, 20, u, v, point, normal, 16));
+        }
+    }
+}
+
+TEST(MicroQuad, TheFourthCornerFollowsFromThree) {
+    // 1 / t is affine in the picture: 1/t11 = 1/t10 + 1/t01 - 1/t00.
+    PixelFrame<double> const frame = pixel_frame(off_centre_eye(ViewKind::perspective), 64, 36);
+    V const normal(0.2, 3.0, -0.4);
+    MicroQuad<double> const quad = micro_quad(frame, 3, 30, 4.0, normal);
+    auto const inverse_depth = [&](double u, double v) {
+        return 1.0 / glm::dot(frame.to_inward, point_on(frame, quad, 3, 30, u, v) - frame.eye);
+    };
+    EXPECT_NEAR(inverse_depth(1, 1), inverse_depth(1, 0) + inverse_depth(0, 1) - inverse_depth(0, 0), 1e-14);
+    EXPECT_NEAR(inverse_depth(0.5, 0.5), 0.25, 1e-14);
+}
+
+TEST(MicroQuad, IsOneWithItsNegativeNormalAndItsLength) {
+    PixelFrame<double> const frame = pixel_frame(off_centre_eye(ViewKind::perspective), 64, 36);
+    MicroQuad<double> const a = micro_quad(frame, 3, 30, 4.0, V(0.2, 3.0, -0.4)),
+                            b = micro_quad(frame, 3, 30, 4.0, V(-0.4, -6.0, 0.8));
+    EXPECT_DOUBLE_EQ(a.q, b.q);
+    EXPECT_DOUBLE_EQ(a.q_x, b.q_x);
+    EXPECT_DOUBLE_EQ(a.q_y, b.q_y);
+}
+
+TEST(MicroQuad, OfAPlaneSeenEdgeOnStaysBetweenTwoThirdsAndTwiceItsDepth) {
+    PixelFrame<double> const frame = pixel_frame(off_centre_eye(ViewKind::perspective), 64, 36);
+    V const ray = frame.inward + frame.across * (10.5 - 32.0) + frame.upward * (20.5 - 18.0);
+    V const edge_on = glm::cross(ray, frame.across);
+    for (double const turn : {0.0, 1e-9, 1e-4, -1e-4}) {
+        MicroQuad<double> const quad = micro_quad(frame, 10, 20, 6.0, edge_on + ray * turn);
+        ASSERT_TRUE(quad.ok);
+        for (double const u : {0.0, 1.0})
+            for (double const v : {0.0, 1.0}) {
+                double const depth = 1.0 / (quad.q + quad.q_x * u + quad.q_y * v);
+                EXPECT_GE(depth, 6.0 * 2.0 / 3.0 - 1e-9);
+                EXPECT_LE(depth, 12.0 + 1e-9);
+            }
+    }
+}
+
+TEST(MicroQuad, OfWhatIsNoSurfaceIsNotOk) {
+    PixelFrame<float> const frame = pixel_frame(ViewVolume<float>{}, 8, 8);
+    Vec3<float> const up(0, 1, 1);
+    float const nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    for (float const depth : {0.0f, -1.0f, nan, infinity}) EXPECT_FALSE(micro_quad(frame, 1, 1, depth, up).ok);
+    EXPECT_FALSE(micro_quad(frame, 1, 1, 2.0f, Vec3<float>(0)).ok);
+    EXPECT_FALSE(micro_quad(frame, 1, 1, 2.0f, Vec3<float>(0, nan, 1)).ok);
+    EXPECT_TRUE(micro_quad(frame, 1, 1, 2.0f, up).ok);
+}
