@@ -90,6 +90,51 @@ Json to_json(Claim const& c) {
             {"holds", c.holds}, {"reason", c.reason}};
 }
 
+Json to_json(CloseUpTechnique const& t) {
+    return {{"id", t.id},
+            {"title", t.title},
+            {"truth", t.truth},
+            {"wrong_off_edge", t.wrong_off_edge},
+            {"wrong_samples_ppm", t.wrong_samples_ppm},
+            {"error_hard", t.error_hard},
+            {"error", t.error},
+            {"error_in_penumbra", t.error_in_penumbra},
+            {"ms", t.ms},
+            {"bytes_per_pixel", t.bytes_per_pixel}};
+}
+
+Json to_json(CloseUpGrid const& g) {
+    return {{"name", g.name},
+            {"title", g.title},
+            {"mean_list", g.mean_list},
+            {"longest_list", g.longest_list},
+            {"nodes_per_pixel", g.nodes_per_pixel},
+            {"ms_list", g.ms_list},
+            {"ms_trace", g.ms_trace},
+            {"unlike_masks", g.unlike_masks},
+            {"note", g.note}};
+}
+
+template <class Items>
+Json list(Items const& items);
+
+Json to_json(CloseUp const& c) {
+    return {{"name", c.name},
+            {"title", c.title},
+            {"width", c.width},
+            {"height", c.height},
+            {"triangles", c.triangles},
+            {"asked_pixels", c.asked_pixels},
+            {"off_edge_pixels", c.off_edge_pixels},
+            {"penumbra_pixels", c.penumbra_pixels},
+            {"light_rays", c.light_rays},
+            {"sun_radius", c.sun_radius},
+            {"soft_gap", c.soft_gap},
+            {"ms_maps", c.ms_maps},
+            {"techniques", list(c.techniques)},
+            {"grids", list(c.grids)}};
+}
+
 Json to_json(Technique const& t) {
     return {{"id", t.id},         {"title", t.title},
             {"source", t.source}, {"map_size", t.map_size},
@@ -148,6 +193,7 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
         {"ways", list(results.ways)},
         {"parity", list(results.parity)},
         {"claims", list(results.claims)},
+        {"close_ups", list(results.close_ups)},
         {"machine", {{"backends", drivers}, {"threads", std::thread::hardware_concurrency()}}},
         {"settings",
          {{"width", settings.extent.width},

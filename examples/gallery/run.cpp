@@ -183,6 +183,8 @@ Results run(Settings const& settings, std::span<scenes::NamedScene const> scenes
     }
     tell("measuring what the sources claim");
     results.claims = measure_claims(*backends.front(), settings.quick);
+    tell("looking closer");
+    results.close_ups = show_close_ups(settings, *backends.front(), folder, tell);
     return results;
 }
 

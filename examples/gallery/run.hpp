@@ -4,6 +4,7 @@
 #pragma once
 
 #include "examples/gallery/claims.hpp"
+#include "examples/gallery/close_ups.hpp"
 #include "examples/gallery/parity.hpp"
 #include "examples/gallery/record.hpp"
 #include "examples/gallery/settings.hpp"
@@ -25,6 +26,7 @@ struct Results {
     std::vector<WayRecord> ways;  // of the first view of each scene
     std::vector<Parity> parity;   // of each scene and backend but the first
     std::vector<Claim> claims;
+    std::vector<CloseUp> close_ups;
 };
 
 // Called with one line for whoever waits, without its end; may throw to stop the work.

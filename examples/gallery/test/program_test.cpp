@@ -195,17 +195,44 @@ TEST_F(Gallery, ShowsFewWrongPixelsOnACube) {
         EXPECT_LT(record.at("mis_shadowed_fraction_off_edge").get<double>(), 0.05) << record.dump();
 }
 
+TEST_F(Gallery, LooksCloserAtAPost) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    auto const& close_ups = results.at("close_ups");
+    ASSERT_EQ(close_ups.size(), 1u);
+    auto const& post = close_ups.at(0);
+    EXPECT_EQ(post.at("name"), "post");
+    EXPECT_GT(post.at("penumbra_pixels").get<long>(), 30);
+    std::map<std::string, nlohmann::json> techniques;
+    for (auto const& technique : post.at("techniques")) techniques[technique.at("id").get<std::string>()] = technique;
+    ASSERT_EQ(techniques.size(), 4u);
+    EXPECT_EQ(techniques["exact"].at("wrong_off_edge"), 0);
+    EXPECT_LE(techniques["exact"].at("wrong_samples_ppm").get<double>(), 15.0);
+    EXPECT_LT(techniques["exact"].at("error_hard").get<double>(), 15e-6);
+    EXPECT_GT(techniques["pcf"].at("error_hard").get<double>(), 1e-4) << "texels of a map must show";
+    auto const error = [&](char const* id) { return techniques[id].at("error").get<double>(); };
+    EXPECT_LT(error("pcss"), error("pcf"));
+    EXPECT_LT(error("hfts"), error("pcss"));
+    for (auto const& grid : post.at("grids")) {
+        EXPECT_EQ(grid.at("unlike_masks"), 0) << grid.dump();
+        EXPECT_EQ(grid.at("note"), "") << grid.dump();
+        EXPECT_GT(grid.at("mean_list").get<double>(), 0.0) << grid.dump();
+    }
+    EXPECT_EQ(post.at("grids").size(), 4u);
+}
+
 TEST_F(Gallery, PageShowsEveryPictureAndSeesOneThatIsMissing) {
     if (!has_browser()) GTEST_SKIP() << "NOT TESTED: the gallery page in a browser, for there is no chromium";
     std::string const good = verdict();
     EXPECT_EQ(good.substr(0, 3), "ok:") << good;
-    fs::path const truth =
-        fs::directory_iterator(fs::directory_iterator(place_ / "made" / "images")->path())->path() / "truth.png";
-    ASSERT_TRUE(fs::exists(truth));
-    fs::rename(truth, place_ / "truth.png");
-    std::string const bad = verdict();
-    EXPECT_EQ(bad.substr(0, 4), "bad:") << bad;
-    fs::rename(place_ / "truth.png", truth);
+    fs::path const images = place_ / "made" / "images", scene = images / "cube";
+    for (fs::path const& picture :
+         {fs::directory_iterator(scene)->path() / "truth.png", images / "close-ups" / "post" / "pcss-picture.png"}) {
+        ASSERT_TRUE(fs::exists(picture)) << picture;
+        fs::rename(picture, place_ / "hidden.png");
+        std::string const bad = verdict();
+        EXPECT_EQ(bad.substr(0, 4), "bad:") << bad;
+        fs::rename(place_ / "hidden.png", picture);
+    }
 }
 
 TEST_F(Gallery, RefusesModelsThatAreNone) {

@@ -23,6 +23,7 @@ for (const scene of scenes) shows.set(scene.name, new Show(scene));
 summary();
 waysTable();
 parityTable();
+closeUps();
 claimList();
 recordTable();
 method();
