@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // The irregular z-buffer on a device: a G-buffer and triangles in, one word of 32 samples a pixel out. Four compute
-// passes (clear, list, trace, trace what is large) on any driver with double precision and atomics in storage buffers; no
-// fragment stage, so neither interlock nor conservative rasterisation is asked for. OpenGL and Vulkan run the same SPIR-V.
+// passes (clear, list, trace, trace what is large) on any driver with double precision and atomics in buffers. No
+// fragment stage, so neither interlock nor conservative rasterisation. OpenGL and Vulkan run the same SPIR-V.
 //
-// Memory on the device: a pixel takes 24 bytes of G-buffer, 16 of quad, 4 of mask and 8 a node, of which four are always
-// enough; a texel of the grid 4.6; a triangle 16 and its vertices.
+// Memory on the device: a pixel takes 24 bytes of G-buffer, 16 of quad, 4 of mask and 8 a node, of which four will do;
+// a texel of the grid 4.6; a triangle 16 and its vertices.
 #pragma once
 
 #include "backends/compute.hpp"

@@ -5973,8 +5973,8 @@ template <class T>
 // ======== shadowmath/sdsm.hpp ========
 //
 // Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it
-// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels, where four tight cascades come to 1.5
-// and four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
+// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels; four tight cascades come to 1.5 and
+// four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
 // or from the frame before (then widen the boxes by what may have moved).
 //
 //   eye depths ── sample_splits ── boxes of samples ── fit_samples ── one matrix a split
@@ -8078,10 +8078,10 @@ template <class T>
 // may be the grid. It decides how long the lists are, and so the speed; the answer is the same for all.
 //
 // A node is a tile of 4 x 4 pixels, or a part of one where the tile straddles a silhouette, with bounds as the light
-// sees it. Each is listed in every texel that its footprint touches. Texels where nodes are crowded and small are
-// divided, up to 32 x 32, and footprints larger than a texel are listed in grids of larger ones: however the picture and
-// the map differ in scale, lists are short and a node is in few of them. A counting sort lays the lists of a row end to
-// end, in the order of the picture; so what a triangle may cover is one run a row.
+// sees it. Each is listed in every texel that its footprint touches. Texels where nodes are crowded are divided, up to
+// 32 x 32, and footprints larger than a texel are listed in grids of larger ones: however the picture and the map
+// differ in scale, lists are short and a node is in few of them. A counting sort lays the lists of a row end to end, in
+// the order of the picture; so what a triangle may cover is one run a row.
 //
 // No memory is taken: the caller hands over two arrays, and storage_for says how long they must be. Rows of a picture
 // can be split over several buffers, one a thread, that share nothing.
@@ -9257,10 +9257,11 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
 //
 // Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
 
+
 // ======== shadowmath/irregular/gpu.hpp ========
 //
 // What the compute passes of the irregular z-buffer read, as it lies in memory (std140): the members of the block in
-// backends/shaders/irregular_buffers.glsl. Plain numbers: whoever dispatches the passes needs no header of this library.
+// backends/shaders/irregular_buffers.glsl. Plain numbers: who dispatches the passes needs no header of this library.
 
 namespace shadowmath {
 inline namespace v0 {

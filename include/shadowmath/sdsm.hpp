@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Sample-distribution shadow maps: cascades fitted to what the eye sees, pixel by pixel, instead of to all that it
-// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels, where four tight cascades come to 1.5
-// and four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
+// could see. In the streets of the gallery's town a texel covers 0.9 eye pixels; four tight cascades come to 1.5 and
+// four stable ones to 1.8. Use them when the eye's depth is at hand before the maps are drawn: from a depth prepass,
 // or from the frame before (then widen the boxes by what may have moved).
 //
 //   eye depths ── sample_splits ── boxes of samples ── fit_samples ── one matrix a split

@@ -71,7 +71,7 @@ vec3 sm_normal_in_pixels(sm_PixelFrame frame, vec3 normal) {
     return vec3(sm_inner(frame.across, normal), sm_inner(frame.upward, normal), sm_inner(frame.inward, normal));
 }
 
-// The piece of the plane through `depth` in the middle of the pixel; n is the normal in pixels. Not ok for sky: a normal
+// The plane's piece through `depth` in the middle of the pixel; n is the normal in pixels. Not ok for sky: a normal
 // of no length, a depth that is not positive before an eye of perspective, or anything that is not finite.
 sm_MicroQuad sm_micro_quad(sm_PixelFrame frame, ivec2 pixel, float depth, vec3 n) {
     bool flat_eye = frame.orthographic != 0;
@@ -161,7 +161,7 @@ dvec4 sm_pixel_plane(sm_ExactFrame frame, dvec3 n, double offset) {
     return frame.orthographic ? dvec4(n.xy, offset, n.z) : dvec4(n, offset);
 }
 
-// The four half spaces of a triangle's shadow: its own plane, then one through the light and each edge; x, y, a, b as in
+// The four half spaces of a triangle's shadow: its own plane, then one through light and each edge; x, y, a, b as in
 // irregular/microquad.hpp. Vertices in pixels. False where it has no area as seen from the light: it casts nothing.
 bool sm_shadow_volume(sm_ExactFrame frame, dvec3 p[3], double margin_metres, double margin_share,
                       out dvec4 planes[4]) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the compute passes of the irregular z-buffer read, as it lies in memory (std140): the members of the block in
-// backends/shaders/irregular_buffers.glsl. Plain numbers: whoever dispatches the passes needs no header of this library.
+// backends/shaders/irregular_buffers.glsl. Plain numbers: who dispatches the passes needs no header of this library.
 #pragma once
 
 #include <shadowmath/config.hpp>
