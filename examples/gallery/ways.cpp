@@ -95,7 +95,7 @@ std::vector<WayRecord> measure_ways(Backend& backend, MapSet const& set, SplitOb
     std::vector<backend::DepthLayer> layers;
     for (Map const& map : set.maps) layers.push_back({glm::mat4(map.clip_from_world), map.casters});
     std::vector<std::span<std::uint32_t const>> const lists(shown.begin(), shown.end());
-    ScenePass const picture{extent, by_depth_alone(set.frame), lists};
+    ScenePass const picture{extent, by_depth_alone(set.frame), false, lists};
 
     std::vector<Way> ways;
     auto const add = [&](std::string const& name, bool with_picture, int in_memory, std::function<DrawWork()> draw) {
