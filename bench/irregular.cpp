@@ -219,7 +219,7 @@ ShadowMap<float> plain_grid(CasterScene const& scene) {
     return map;
 }
 
-// Grids to choose from: a uniform one, the same turned so that the view runs along its rows, and two that follow the eye.
+// Grids to choose from: a uniform one, the same turned along the view, and two that follow the eye.
 ShadowMap<float> grid_named(std::string const& name, CasterScene const& scene) {
     if (name == "plain") return plain_grid(scene);
     Aabb<float> const box{{-scene.extent, -scene.height, -scene.extent}, {scene.extent, scene.height, scene.extent}};

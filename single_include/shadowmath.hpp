@@ -7620,7 +7620,9 @@ struct Avx512Doubles {
     __m512d first;
     __m512d second;
 
-    [[nodiscard]] static Avx512Doubles all(double value) noexcept { return {_mm512_set1_pd(value), _mm512_set1_pd(value)}; }
+    [[nodiscard]] static Avx512Doubles all(double value) noexcept {
+        return {_mm512_set1_pd(value), _mm512_set1_pd(value)};
+    }
     [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
         return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
     }
@@ -7638,11 +7640,14 @@ struct Avx512Doubles {
     friend Avx512Doubles operator*(Avx512Doubles a, Avx512Doubles b) noexcept {
         return {_mm512_mul_pd(a.first, b.first), _mm512_mul_pd(a.second, b.second)};
     }
-    friend Avx512Doubles absolute(Avx512Doubles a) noexcept { return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)}; }
+    friend Avx512Doubles absolute(Avx512Doubles a) noexcept {
+        return {_mm512_abs_pd(a.first), _mm512_abs_pd(a.second)};
+    }
     friend Avx512Doubles with_sign_of(Avx512Doubles magnitude, Avx512Doubles sign) noexcept {
         __m512i const top = _mm512_set1_epi64(std::numeric_limits<std::int64_t>::min());
         auto const signed_as = [top](__m512d m, __m512d s) {
-            return _mm512_castsi512_pd(_mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
+            return _mm512_castsi512_pd(
+                _mm512_ternarylogic_epi64(top, _mm512_castpd_si512(s), _mm512_castpd_si512(m), 0xca));
         };
         return {signed_as(magnitude.first, sign.first), signed_as(magnitude.second, sign.second)};
     }
@@ -8088,7 +8093,7 @@ namespace shadowmath {
 inline namespace v0 {
 
 inline constexpr int tile_side = 4;
-inline constexpr int level_shift = 2;     // a texel is 4 x 4 of the next finer level
+inline constexpr int level_shift = 2;  // a texel is 4 x 4 of the next finer level
 inline constexpr int most_levels = 8;
 inline constexpr int most_divisions = 5;  // of a texel of the finest level: 2^5 x 2^5 parts
 inline constexpr int largest_grid = 1 << 11;
@@ -8099,8 +8104,8 @@ template <class T>
 struct Receivers {
     T const* position = nullptr;  // world; three scalars a pixel, `position_stride` apart
     int position_stride = 3;
-    T const* depth = nullptr;     // instead of positions: metres along the view's forward axis, one a pixel
-    T const* normal = nullptr;    // of the surface, not for shading; any length and sign
+    T const* depth = nullptr;   // instead of positions: metres along the view's forward axis, one a pixel
+    T const* normal = nullptr;  // of the surface, not for shading; any length and sign
     int normal_stride = 3;
 };
 
@@ -8114,8 +8119,8 @@ struct PixelRect {
 
 // What the lists of a buffer came to.
 struct ListCounts {
-    std::uint32_t tiles = 0;    // with a pixel that light may reach
-    std::uint32_t parts = 0;    // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
+    std::uint32_t tiles = 0;  // with a pixel that light may reach
+    std::uint32_t parts = 0;  // tiles, and parts of those that straddle a silhouette: what `capacity` must hold
     std::uint32_t nodes = 0;
     std::uint32_t lists = 0;    // texels that are not empty
     std::uint32_t longest = 0;  // nodes in one texel
@@ -8147,7 +8152,7 @@ struct IrregularBuffer {
     T texel_error_here = T(0);  // and whatever the distance
     T depth_error = T(0);
     T depth_error_here = T(0);
-    T contact_reach = T(0);     // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
+    T contact_reach = T(0);  // metres, and share of the depth, that margins of contact are a part of; see trace.hpp
     T contact_ray = T(0);
     int tiles_across = 0;
     int tile_count = 0;
@@ -8173,10 +8178,10 @@ struct IrregularBuffer {
     std::uint32_t* first = nullptr;  // node of each list, one more at the end
 
     // Texels of the finest level.
-    T* texel_depth = nullptr;                // far end over the nodes that touch it
-    std::uint32_t* texel_levels = nullptr;   // bit l: level l has a node here
-    std::uint32_t* texel_lists = nullptr;    // place in `first`: nodes too wide for its divisions, then the divisions
-    std::uint32_t* texel_division = nullptr; // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
+    T* texel_depth = nullptr;                 // far end over the nodes that touch it
+    std::uint32_t* texel_levels = nullptr;    // bit l: level l has a node here
+    std::uint32_t* texel_lists = nullptr;     // place in `first`: nodes too wide for its divisions, then the divisions
+    std::uint32_t* texel_division = nullptr;  // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
     // For trace: triangles are put in order of their texels, a block at a time.
     std::uint32_t* block_texel = nullptr;
@@ -8404,8 +8409,9 @@ struct TileKernel {
         auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
         int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
         for (int j = 0; j < tile_side; ++j) {
-            std::size_t const pixel = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
-                                      static_cast<std::size_t>(column);
+            std::size_t const pixel =
+                static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                static_cast<std::size_t>(column);
             for (int i = 0; i < tile_side; ++i) {
                 std::size_t const at = pixel + static_cast<std::size_t>(i < columns ? i : 0);
                 int const k = j * tile_side + i;
@@ -8448,7 +8454,7 @@ struct TileKernel {
         Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
         Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
         Lanes const m[3] = {Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2])};
-        auto const dot = [&all](Vec3<T> const& v, Lanes const (&a)[3]) {
+        auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
             return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
         };
         Lanes depth = Lanes::load(in[3]);
@@ -8477,7 +8483,8 @@ struct TileKernel {
         if (sound == 0) return;
 
         // Light and eye on the same side?
-        Lanes travel = fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
+        Lanes travel =
+            fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
             travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
         Lanes const under = zero - tiny;
@@ -8536,14 +8543,16 @@ struct TileKernel {
         T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
         // With the rounding of the division put right, where operations are fused.
         T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
-        Lanes const exact = flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
+        Lanes const exact =
+            flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
         chosen(seen.alive, exact - to_corner, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
 
     // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
-    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across) const noexcept {
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part,
+                int pixels_across) const noexcept {
         if (part == 0) return;
         Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
@@ -8584,7 +8593,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
     T scale[4];
     for (int i = 0; i < 4; ++i) {
         Vec4<T> const r = row(canonical, i);
-        scale[i] = std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+        scale[i] =
+            std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
     }
     // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
     Vec4<T> const image = canonical * source;
@@ -8616,7 +8626,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
 template <class T>
 [[nodiscard]] inline PixelPlane<T> plane_of_row(PixelFrame<T> const& frame, Vec4<T> const& row) noexcept {
     Vec3<T> const axis(row);
-    T const offset = row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
+    T const offset =
+        row.w + glm::dot(axis, frame.across) * frame.origin.x + glm::dot(axis, frame.upward) * frame.origin.y;
     return pixel_plane(frame.kind, normal_in_pixels(frame, axis), offset);
 }
 
@@ -8666,13 +8677,15 @@ template <class T>
     };
     buffer.quad = take(scalars, 3 * lane_count * tiles);
     buffer.tile_q = take(scalars, tiles);
-    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth}) *array = take(scalars, nodes);
+    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth})
+        *array = take(scalars, nodes);
     buffer.texel_depth = take(scalars, texels);
     parts.bounds = scalars;
     buffer.mask = take(words, lane_count * tiles);
     buffer.state = take(words, 2 * tiles);
     buffer.tile = take(words, nodes);
-    for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division}) *array = take(words, texels);
+    for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division})
+        *array = take(words, texels);
     buffer.block_count = take(words, texels + 2);
     buffer.block_texel = take(words, caster_block);
     buffer.block_order = take(words, caster_block);
@@ -8734,22 +8747,22 @@ template <class T, class Lanes = BestLanes<T>>
         rows[k] = T(k / tile_side);
     }
     Vec4<T> const* const row = buffer.row;
-    detail::TileKernel<Lanes> const kernel{
-        buffer,
-        receivers,
-        {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]), detail::plane_of_row(frame, row[2]),
-         detail::plane_of_row(frame, row[3])},
-        grid.w_min > T(0) ? grid.w_min : T(0),
-        detail::turn_limit(frame),
-        Lanes::load(columns),
-        Lanes::load(rows),
-        flat,
-        Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
+    detail::TileKernel<Lanes> const kernel{buffer,
+                                           receivers,
+                                           {detail::plane_of_row(frame, row[0]), detail::plane_of_row(frame, row[1]),
+                                            detail::plane_of_row(frame, row[2]), detail::plane_of_row(frame, row[3])},
+                                           grid.w_min > T(0) ? grid.w_min : T(0),
+                                           detail::turn_limit(frame),
+                                           Lanes::load(columns),
+                                           Lanes::load(rows),
+                                           flat,
+                                           Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
     Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);
     Lanes least_w = huge, most_w = low;
     typename detail::TileKernel<Lanes>::Seen seen;
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
-        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side, rect.y + tile / buffer.tiles_across * tile_side, seen);
+        kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side,
+                   rect.y + tile / buffer.tiles_across * tile_side, seen);
         std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
         for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
         buffer.state[2 * tile] = seen.alive;
@@ -8827,12 +8840,12 @@ struct TraceKernel {
 
     // Sixteen triangles: where they are, what they may cover of the grid, and, if asked for, their shadow volumes.
     struct Batch {
-        std::uint32_t sound;              // bit k: triangle k may take light from a receiver
-        T vertex[3][3][lane_count];       // world
-        T bounds[4][lane_count];          // lo x, hi x, lo y, hi y in texels
-        T depth[lane_count];              // the end nearest to the light
-        Real plane[4][4][lane_count];     // x, y, a, b of the four half spaces
-        Lanes reach;                      // metres from the eye, at most
+        std::uint32_t sound;           // bit k: triangle k may take light from a receiver
+        T vertex[3][3][lane_count];    // world
+        T bounds[4][lane_count];       // lo x, hi x, lo y, hi y in texels
+        T depth[lane_count];           // the end nearest to the light
+        Real plane[4][4][lane_count];  // x, y, a, b of the four half spaces
+        Lanes reach;                   // metres from the eye, at most
     };
 
     // Tiles that a triangle may touch, in the order of its lists, some of them twice.
@@ -8868,7 +8881,8 @@ struct TraceKernel {
         for (std::uint32_t n = 0; n < kept; ++n) {
             std::uint32_t const tile = queue.tile[n];
             T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-            Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count), q_y = Lanes::load(quads + 2 * lane_count);
+            Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count),
+                        q_y = Lanes::load(quads + 2 * lane_count);
             Real const x = Real(static_cast<int>(tile % tiles_across * tile_side)) + left;
             Real const y = Real(static_cast<int>(tile / tiles_across * tile_side)) + bottom;
             auto const tile_q = Real(buffer.tile_q[tile]);
@@ -8878,8 +8892,10 @@ struct TraceKernel {
             for (int i = 0; i < 4; ++i) {
                 // Here large terms cancel; what is left is no more than a tile's worth.
                 Real const* const plane = p + 4 * lane_count * i;
-                Real const here = plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
-                c[i] = fused(bs[i], q, fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
+                Real const here =
+                    plane[0] * x + plane[lane_count] * y + (plane[2 * lane_count] + plane[3 * lane_count] * tile_q);
+                c[i] = fused(bs[i], q,
+                             fused(ys[i], row_in_tile, fused(xs[i], column_in_tile, Lanes::all(static_cast<T>(here)))));
                 gain_x[i] = fused(bs[i], q_x, xs[i]);
                 gain_y[i] = fused(bs[i], q_y, ys[i]);
                 // In the order of half_plane_mask, where rounding is monotone: no sample lies beyond these.
@@ -8890,8 +8906,8 @@ struct TraceKernel {
     }
 
     // The pixels of a tile that a triangle touches, with their lines.
-    void darken(std::uint32_t tile, std::uint32_t alive, std::uint32_t touched, Lanes const (&c)[4], Lanes const (&gain_x)[4],
-                Lanes const (&gain_y)[4]) const noexcept {
+    void darken(std::uint32_t tile, std::uint32_t alive, std::uint32_t touched, Lanes const (&c)[4],
+                Lanes const (&gain_x)[4], Lanes const (&gain_y)[4]) const noexcept {
         Lanes const zero = Lanes::all(T(0));
         std::uint32_t done = touched;
         T lines[4][3][lane_count];
@@ -8942,8 +8958,10 @@ struct TraceKernel {
     // Queues the tiles of those nodes of [node, end) that the triangle may touch.
     void scan(std::uint32_t node, std::uint32_t end, Probe const& probe, Queue& queue) const noexcept {
         for (; node < end; node += lane_count) {
-            std::uint32_t hit = at_least(probe.hi_x, Lanes::load(buffer.lo_x + node)) & at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
-                                at_least(probe.hi_y, Lanes::load(buffer.lo_y + node)) & at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
+            std::uint32_t hit = at_least(probe.hi_x, Lanes::load(buffer.lo_x + node)) &
+                                at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
+                                at_least(probe.hi_y, Lanes::load(buffer.lo_y + node)) &
+                                at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
                                 at_least(Lanes::load(buffer.depth + node), probe.depth);
             if (end - node < lane_count) hit &= (1u << (end - node)) - 1u;
             queue.count += Lanes::compress(hit, buffer.tile + node, queue.tile + queue.count);
@@ -8957,8 +8975,14 @@ struct TraceKernel {
         PlaceRange const texels = texels_of(places, 0);
         std::uint32_t levels = levels_at(texels, batch.depth[k]);
         if (levels == 0) return;
-        Probe const probe{Lanes::all(batch.bounds[0][k]), Lanes::all(batch.bounds[1][k]), Lanes::all(batch.bounds[2][k]),
-                          Lanes::all(batch.bounds[3][k]), Lanes::all(batch.depth[k]), batch, k, stamp};
+        Probe const probe{Lanes::all(batch.bounds[0][k]),
+                          Lanes::all(batch.bounds[1][k]),
+                          Lanes::all(batch.bounds[2][k]),
+                          Lanes::all(batch.bounds[3][k]),
+                          Lanes::all(batch.depth[k]),
+                          batch,
+                          k,
+                          stamp};
         std::uint32_t const* const first = buffer.first;
         if ((levels & 1u) != 0)
             for (int y = texels.y0; y <= texels.y1; ++y)
@@ -9033,14 +9057,16 @@ struct TraceKernel {
     // Bounds in the grid, and which of the sixteen reach a receiver's.
     void find(Batch& batch) const noexcept {
         auto const all = [](T value) { return Lanes::all(value); };
-        Lanes const largest_number = all(std::numeric_limits<T>::max()), lowest_number = all(std::numeric_limits<T>::lowest());
+        Lanes const largest_number = all(std::numeric_limits<T>::max()),
+                    lowest_number = all(std::numeric_limits<T>::lowest());
         Lanes at[3][4];
         Lanes least_w = largest_number, most_w = lowest_number;
         std::uint32_t sound = batch.sound;
         batch.reach = all(T(0));
         for (int i = 0; i < 3; ++i) {
             Vec3<T> const& eye = buffer.frame.eye;
-            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x), y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
+            Lanes const x = Lanes::load(batch.vertex[i][0]) - all(eye.x),
+                        y = Lanes::load(batch.vertex[i][1]) - all(eye.y),
                         z = Lanes::load(batch.vertex[i][2]) - all(eye.z);
             Lanes const away = absolute(x) + absolute(y) + absolute(z);
             sound &= at_least(all(farthest_vertex<T>), away);
@@ -9090,14 +9116,16 @@ struct TraceKernel {
         }
         // What rounding may add, so that no texel is missed.
         Lanes const steepest = reciprocal(most(least_w, floor));
-        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)), all(T(1) / T(128)));
+        Lanes const pad = fused(steepest, fused(batch.reach, all(buffer.texel_error), all(buffer.texel_error_here)),
+                                all(T(1) / T(128)));
         lo_x = lo_x - pad;
         hi_x = hi_x + pad;
         lo_y = lo_y - pad;
         hi_y = hi_y + pad;
         depth = depth - steepest * fused(batch.reach, all(buffer.depth_error), all(buffer.depth_error_here));
-        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) & at_least(all(buffer.most_y), lo_y) &
-                 at_least(hi_y, all(buffer.least_y)) & at_least(all(buffer.most_depth), depth);
+        sound &= at_least(all(buffer.most_x), lo_x) & at_least(hi_x, all(buffer.least_x)) &
+                 at_least(all(buffer.most_y), lo_y) & at_least(hi_y, all(buffer.least_y)) &
+                 at_least(all(buffer.most_depth), depth);
         lo_x.store(batch.bounds[0]);
         hi_x.store(batch.bounds[1]);
         lo_y.store(batch.bounds[2]);
@@ -9112,8 +9140,11 @@ struct TraceKernel {
         for (int i = 0; i < 3; ++i) {
             auto const from_eye = [&](int axis) { return Wide::load(batch.vertex[i][axis]) - all(frame.eye[axis]); };
             Triple<Wide> const v{from_eye(0), from_eye(1), from_eye(2)};
-            auto const along = [&](Vec3<Real> const& axis) { return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v); };
-            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y), along(frame.to_inward)};
+            auto const along = [&](Vec3<Real> const& axis) {
+                return inner(Triple<Wide>{all(axis.x), all(axis.y), all(axis.z)}, v);
+            };
+            p[i] = {along(frame.to_across) - all(frame.origin.x), along(frame.to_upward) - all(frame.origin.y),
+                    along(frame.to_inward)};
         }
         T reach[lane_count];
         batch.reach.store(reach);
@@ -9185,11 +9216,13 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
     T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
     PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
-    detail::TraceKernel<Lanes> const kernel{buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
+    detail::TraceKernel<Lanes> const kernel{
+        buffer, casters, frame, pixel_light(frame, buffer.source), Lanes::load(column), Lanes::load(row), w_floor};
     typename detail::TraceKernel<Lanes>::Batch batch;
     typename detail::TraceKernel<Lanes>::Queue queue;
     for (std::uint32_t done = 0; done < count;) {
-        std::uint32_t const block = count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
+        std::uint32_t const block =
+            count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
         kernel.run_block(first + done, block, batch, queue);
         done += block;
     }
@@ -9207,7 +9240,8 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
             std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
             continue;
         }
-        std::uint32_t const* in = buffer.mask + static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
+        std::uint32_t const* in = buffer.mask +
+                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
                                   row % tile_side * tile_side;
         for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
             int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
@@ -9222,7 +9256,6 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
 // ======== shadowmath/irregular.hpp ========
 //
 // Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
-
 
 // ======== shadowmath/irregular/gpu.hpp ========
 //

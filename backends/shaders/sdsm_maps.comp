@@ -10,7 +10,6 @@ layout(local_size_x = 16) in;
 // backends/backend.hpp's MapConstants.
 struct MapConstants {
     mat4 clip_from_world;
-    float depth_begin;
     float depth_end;
     float blend_begin;
     float w_min;
@@ -41,7 +40,6 @@ void main() {
     // A split that was not needed ends where it begins: at the far end, where no receiver asks for it.
     vec4 range = asked ? state.range[i] : vec4(fit.basis_y.w);
     maps[i].clip_from_world = map.clip_from_world;
-    maps[i].depth_begin = range.x;
     maps[i].depth_end = range.z;
     maps[i].blend_begin = range.y;
     maps[i].w_min = 0.0;

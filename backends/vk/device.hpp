@@ -20,7 +20,7 @@ struct Abilities {
     bool geometry_shader = false;
     bool layer_from_vertex_shader = false;
     bool statistics = false;
-    bool doubles = false;  // in shaders
+    bool doubles = false;             // in shaders
     std::uint32_t views_at_once = 0;  // that multiview draws; 0: it has no multiview
 };
 

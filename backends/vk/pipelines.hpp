@@ -44,7 +44,7 @@ public:
     RenderPass receive_pass;                    // colour, position, normal, depth, cleared
     RenderPass receive_pass_resumed;            // the same, kept
     DepthPipelines per_map, clones, instances;  // clones, instances: empty where the device has no such shaders
-    Pipeline eye_depth;  // as per_map, the farther end cleared to 0 and nearer the greater
+    Pipeline eye_depth;                         // as per_map, the farther end cleared to 0 and nearer the greater
     Pipeline receive;
 
 private:

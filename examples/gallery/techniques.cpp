@@ -231,7 +231,6 @@ void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_devic
         MapBias<float> const bias = bias_for(cascade.map, light, in.map_size, BiasOptions<float>{});
         MapConstants& constants = set.frame.maps[set.maps.size()];
         constants.clip_from_world = cascade.map.clip_from_world;
-        constants.depth_begin = cascade.range.begin;
         constants.depth_end = cascade.range.end;
         constants.blend_begin = cascade.range.blend_begin;
         constants.bias_constant = bias.constant;

@@ -112,12 +112,11 @@ Drawn drawn_from_cpp(Backend& backend, Scene const& scene, Given const& given) {
     for (int i = 0; i < view.frame.map_count; ++i) {
         MapConstants& constants = view.frame.maps[std::size_t(i)];
         constants.clip_from_world = nowhere<float>();
-        constants.depth_begin = constants.depth_end = constants.blend_begin = given.shadow_distance;
+        constants.depth_end = constants.blend_begin = given.shadow_distance;
         if (i >= cascades.count) continue;
         Cascade<float> const& cascade = cascades.at[i];
         MapBias<float> const bias = bias_for(cascade.map, given.light, map_size, BiasOptions<float>{});
         constants.clip_from_world = cascade.map.clip_from_world;
-        constants.depth_begin = cascade.range.begin;
         constants.depth_end = cascade.range.end;
         constants.blend_begin = cascade.range.blend_begin;
         constants.bias_constant = bias.constant;
@@ -149,7 +148,6 @@ TEST_P(Fitted, MapsThatTheDeviceFitsAreThoseOfTheCppAndSoIsThePicture) {
             for (std::size_t i = 0; i < cpp.constants.size(); ++i) {
                 MapConstants const &a = device.constants[i], &b = cpp.constants[i];
                 EXPECT_EQ(a.clip_from_world, b.clip_from_world) << "map " << i;
-                EXPECT_EQ(a.depth_begin, b.depth_begin) << "map " << i;
                 EXPECT_EQ(a.depth_end, b.depth_end) << "map " << i;
                 EXPECT_EQ(a.blend_begin, b.blend_begin) << "map " << i;
                 EXPECT_TRUE(device.maps[i].pixels == cpp.maps[i].pixels) << "map " << i;

@@ -60,13 +60,15 @@ inline Answer meets(Vec3<Real> const& sample, Light<Real> const& light, test::Tr
 // Every bit of the mask is what the truth says, wherever the truth is decided.
 template <class T>
 [[nodiscard]] bool agrees_with_segments(test::PlanePicture<T> const& picture, std::vector<std::uint32_t> const& masks,
-                                        std::vector<test::Triangle<T>> const& casters, Light<T> const& light) {
+                                        std::vector<test::Triangle<T>> const& casters, Light<T> const& light,
+                                        ShadowMap<T> const& grid) {
     PixelFrame<Real> const frame = frame_in<Real>(picture.frame);
     Light<Real> exact;
     exact.kind = light.kind;
     exact.direction = Vec3<Real>(light.direction);
     exact.position = Vec3<Real>(light.position);
     Real const eps = std::numeric_limits<T>::epsilon();
+    Vec4<Real> const row_of_w(row(grid.clip_from_world, 3));
     for (std::size_t pixel = 0; pixel < masks.size(); ++pixel) {
         if (!(picture.depth[pixel] > T(0))) {
             if (masks[pixel] != 0) return false;
@@ -76,6 +78,17 @@ template <class T>
         auto const row = static_cast<int>(pixel / static_cast<std::size_t>(picture.frame.width));
         Vec3<Real> const normal(picture.normal);
         MicroQuad<Real> const quad = micro_quad(frame, column, row, Real(picture.depth[pixel]), normal);
+        // In the middle of the pixel the quad is on the plane even where it had to be turned.
+        Vec3<Real> const middle = point_on(frame, quad, column, row, Real(0.5), Real(0.5));
+        Real const lit_side = glm::dot(normal, toward(exact, middle)) * glm::dot(normal, frame.eye - middle);
+        if (std::abs(lit_side) < 1e-4L * glm::length(frame.eye - middle)) continue;
+        // A pixel that reaches behind the map's light is not the map's.
+        bool held = true;
+        for (int corner = 0; corner < 4; ++corner) {
+            Vec3<Real> const at = point_on(frame, quad, column, row, Real(corner % 2), Real(corner / 2));
+            held = held && glm::dot(row_of_w, Vec4<Real>(at, Real(1))) > 1e-3L;
+        }
+        if (!held) continue;
         for (int s = 0; s < samples_per_pixel; ++s) {
             Vec3<Real> const at =
                 point_on(frame, quad, column, row, pixel_samples<Real>.u[s], pixel_samples<Real>.v[s]);
@@ -91,8 +104,6 @@ template <class T>
                 if (wanted == Answer::dark) break;
             }
             bool const dark = (masks[pixel] >> s & 1u) != 0;
-            Real const lit_side = glm::dot(normal, toward(exact, at)) * glm::dot(normal, frame.eye - at);
-            if (std::abs(lit_side) < 1e-4L * glm::length(frame.eye - at)) continue;
             if (lit_side < 0) wanted = Answer::dark;
             if (wanted != Answer::undecided && dark != (wanted == Answer::dark)) return false;
         }

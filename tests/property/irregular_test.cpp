@@ -39,7 +39,7 @@ template <class T>
 rc::Gen<Case<T>> any_case() {
     return rc::gen::exec([] {
         Case<T> drawn;
-        auto const size = static_cast<int>(1 + *below(20));
+        auto const size = static_cast<int>(1 + *below(8));
         Vec3<T> const tilt = *point_within<T>(T(0.3));
         Vec3<T> const normal = safe_normalize(Vec3<T>(T(0), T(1), T(0)) + tilt).direction;
         Vec3<T> const aside = *point_within<T>(T(3));
@@ -101,7 +101,7 @@ TYPED_TEST(AnyTracing, AgreesWithASegmentForEachSample) {
         using T = typename TypeParam::Scalar;
         Case<T> const drawn = *any_case<T>();
         std::vector<std::uint32_t> const masks = masks_of<TypeParam>(drawn, drawn.casters);
-        RC_ASSERT(laws::agrees_with_segments(drawn.picture, masks, drawn.casters, drawn.light));
+        RC_ASSERT(laws::agrees_with_segments(drawn.picture, masks, drawn.casters, drawn.light, drawn.grid));
     }));
 }
 
@@ -134,8 +134,8 @@ TYPED_TEST(AnyTracing, SplittingATriangleChangesNothingOffItsEdges) {
             halves.push_back({middle, t[1], t[2]});
         }
         // The halves against the whole triangles' segments.
-        RC_ASSERT(
-            laws::agrees_with_segments(drawn.picture, masks_of<TypeParam>(drawn, halves), drawn.casters, drawn.light));
+        RC_ASSERT(laws::agrees_with_segments(drawn.picture, masks_of<TypeParam>(drawn, halves), drawn.casters,
+                                             drawn.light, drawn.grid));
     }));
 }
 

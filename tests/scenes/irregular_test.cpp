@@ -161,7 +161,7 @@ Compared compare(CasterScene const& scene) {
             MicroQuad<double> const quad = micro_quad(exact, x, y, d, n);
             glm::dvec3 const middle = point_on(exact, quad, x, y, 0.5, 0.5);
             double const toward_light = glm::dot(n, context.travel);
-            // At less than a twentieth of a degree, rounding of the ray's origin moves shadows by a millimetre and more.
+            // At less than a twentieth of a degree rounding of the ray's origin moves shadows by millimetres.
             if (std::abs(toward_light) < 1e-3) continue;
             double const facing = toward_light * glm::dot(n, middle - context.eye);
             compared.samples += 32;

@@ -67,13 +67,13 @@ TYPED_TEST(Tracing, AgreesWithASegmentForEachSampleUnderASunAndALamp) {
                                            {V(T(0.5), T(0.5), T(0.25)), V(T(1.5), 2, T(0.5)), V(T(0.75), 1, T(-1.5))},
                                            {V(-2, 0, 0), V(T(-1.5), 1, 0), V(-1, 0, T(0.5))}};
     auto const masks = this->under_sun(casters);
-    EXPECT_TRUE(laws::agrees_with_segments(this->floor, masks, casters, this->sun));
+    EXPECT_TRUE(laws::agrees_with_segments(this->floor, masks, casters, this->sun, this->sun_grid()));
     EXPECT_GT(this->dark_samples(masks), 500u);
     Traced const under_lamp = traced<TypeParam>(this->floor, casters, this->lamp, this->lamp_grid(), 16);
     EXPECT_FALSE(under_lamp.faults.any()) << describe(under_lamp.faults);
-    EXPECT_TRUE(laws::agrees_with_segments(this->floor, under_lamp.masks, casters, this->lamp));
+    EXPECT_TRUE(laws::agrees_with_segments(this->floor, under_lamp.masks, casters, this->lamp, this->lamp_grid()));
     EXPECT_GT(this->dark_samples(under_lamp.masks), 500u);
-    EXPECT_FALSE(laws::agrees_with_segments(this->floor, under_lamp.masks, casters, this->sun))
+    EXPECT_FALSE(laws::agrees_with_segments(this->floor, under_lamp.masks, casters, this->sun, this->sun_grid()))
         << "the law sees nothing";
 }
 
@@ -86,7 +86,7 @@ TYPED_TEST(Tracing, AgreesWithSegmentsForAnOrthographicEye) {
     std::vector<Triangle<T>> const casters{{V(-1, 1, -1), V(1, T(1.5), -1), V(0, T(0.75), 1)}};
     Traced const result = traced<TypeParam>(tilted, casters, this->sun, this->sun_grid(), 16);
     EXPECT_FALSE(result.faults.any()) << describe(result.faults);
-    EXPECT_TRUE(laws::agrees_with_segments(tilted, result.masks, casters, this->sun));
+    EXPECT_TRUE(laws::agrees_with_segments(tilted, result.masks, casters, this->sun, this->sun_grid()));
     EXPECT_GT(this->dark_samples(result.masks), 500u);
 }
 
@@ -191,7 +191,8 @@ TYPED_TEST(Tracing, DegenerateEdgeOnHugeAndBrokenTrianglesDoNoHarm) {
     // Edge-on: no more than what rounding makes of a line.
     std::vector<Triangle<T>> const edge_on{{V(0, 1, 0), V(0, 1, 0) - along, V(T(0.5), 1, T(0.1))},
                                            {V(0, 1, 0), V(0, 1, 0) - along, V(0, 1, 0) - along * T(2)}};
-    EXPECT_TRUE(laws::agrees_with_segments(this->floor, this->under_sun(edge_on), edge_on, this->sun));
+    EXPECT_TRUE(
+        laws::agrees_with_segments(this->floor, this->under_sun(edge_on), edge_on, this->sun, this->sun_grid()));
     T const far = T(1e6);
     std::vector<Triangle<T>> const huge{{V(-far, 2, -far), V(far, 2, -far), V(0, 2, far)}};
     auto const masks = this->under_sun(huge);
@@ -207,7 +208,7 @@ TYPED_TEST(Tracing, BehindALampNothingCastsAndBesideItTheRestDoes) {
     // From above the lamp down past it.
     std::vector<Triangle<T>> const past{{V(-1, 5, -1), V(T(0.25), T(0.5), -2), V(T(0.25), T(0.5), 2)}};
     Traced const some = traced<TypeParam>(this->floor, past, this->lamp, this->lamp_grid(), 16);
-    EXPECT_TRUE(laws::agrees_with_segments(this->floor, some.masks, past, this->lamp));
+    EXPECT_TRUE(laws::agrees_with_segments(this->floor, some.masks, past, this->lamp, this->lamp_grid()));
     EXPECT_GT(this->dark_samples(some.masks), 100u);
 }
 

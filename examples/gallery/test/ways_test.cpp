@@ -38,6 +38,9 @@ public:
         shown = view.shown.size();
         return counted(null_.draw_split_by_split(maps, view));
     }
+    DrawWork fit_maps(backend::FitPass const& pass) override { return null_.fit_maps(pass); }
+    backend::Image<float> read_eye_depth() override { return null_.read_eye_depth(); }
+    std::vector<backend::MapConstants> read_fit() override { return null_.read_fit(); }
     backend::Image<float> read_depth(int layer) override {
         auto image = null_.read_depth(layer);
         if (errs_ && layer == 1) image.at(2, 3) = 0.75f;

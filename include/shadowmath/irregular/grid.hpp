@@ -4,10 +4,10 @@
 // may be the grid. It decides how long the lists are, and so the speed; the answer is the same for all.
 //
 // A node is a tile of 4 x 4 pixels, or a part of one where the tile straddles a silhouette, with bounds as the light
-// sees it. Each is listed in every texel that its footprint touches. Texels where nodes are crowded and small are
-// divided, up to 32 x 32, and footprints larger than a texel are listed in grids of larger ones: however the picture and
-// the map differ in scale, lists are short and a node is in few of them. A counting sort lays the lists of a row end to
-// end, in the order of the picture; so what a triangle may cover is one run a row.
+// sees it. Each is listed in every texel that its footprint touches. Texels where nodes are crowded are divided, up to
+// 32 x 32, and footprints larger than a texel are listed in grids of larger ones: however the picture and the map
+// differ in scale, lists are short and a node is in few of them. A counting sort lays the lists of a row end to end, in
+// the order of the picture; so what a triangle may cover is one run a row.
 //
 // No memory is taken: the caller hands over two arrays, and storage_for says how long they must be. Rows of a picture
 // can be split over several buffers, one a thread, that share nothing.
