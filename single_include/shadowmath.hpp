@@ -9253,11 +9253,6 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/irregular.hpp ========
-//
-// Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
-
-
 // ======== shadowmath/irregular/gpu.hpp ========
 //
 // What the compute passes of the irregular z-buffer read, as it lies in memory (std140): the members of the block in
@@ -9360,3 +9355,7 @@ static_assert(sizeof(GpuIrregular) == 336);
 
 }  // namespace v0
 }  // namespace shadowmath
+
+// ======== shadowmath/irregular.hpp ========
+//
+// Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.

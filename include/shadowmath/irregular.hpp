@@ -11,3 +11,5 @@
 
 #include <shadowmath/irregular/grid.hpp>
 #include <shadowmath/irregular/trace.hpp>
+
+#include <shadowmath/irregular/gpu.hpp>

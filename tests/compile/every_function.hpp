@@ -87,6 +87,8 @@ int every_overloaded_function() noexcept {
     auto const stored_moments = [](int, int) { return Vec2<T>(T(1)); };
     count += mean_moments(Vec2<T>(T(1)), 16, 1, Vec2<T>(T(1)), stored_moments).x > T(0);
     count += every_irregular_function<T>() > 0;
+    GpuIrregular passes;
+    count += gpu_irregular(PixelFrame<float>{}, Light<float>{}, ShadowMap<float>{}, 16, passes).any();
     return count;
 }
 
