@@ -8541,10 +8541,12 @@ struct TileKernel {
         seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
         T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        // With the rounding of the division put right, where operations are fused.
+        // The division once more, without its rounding.
         T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
-        Lanes const exact =
-            flat ? middle - all(tile_q) : fused(fused(zero - depth, middle, one), middle, middle - all(tile_q));
+        T rest[lane_count];
+        (flat ? middle : chosen(seen.alive, depth, one)).store(rest);
+        for (T& r : rest) r = static_cast<T>((flat ? Wider<T>(r) : Wider<T>(1) / Wider<T>(r)) - Wider<T>(tile_q));
+        Lanes const exact = Lanes::load(rest);
         chosen(seen.alive, exact - to_corner, zero).store(quads);
         chosen(seen.alive, q_x, zero).store(quads + lane_count);
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
