@@ -13,7 +13,7 @@ functions=$(nm --defined-only symbols.o | wc -l)
 roots='sqrt|cbrt|hypot|pow|exp2?|expm1|log(2|10|1p)?|ldexp|frexp'
 angles='a?(sin|cos|tan)h?|atan2'
 processor='__cpu_model|__cpu_indicator_init'  # libgcc's: which instructions it has
-rounding='floor|ceil|round|trunc|rint|nearbyint|fmod|fmin|fmax|fabs'
+rounding='floor|ceil|round|trunc|rint|nearbyint|fmod|fmin|fmax|fabs|copysign'
 compiler='mem(cpy|cmp|set|move)|_GLOBAL_OFFSET_TABLE_|__stack_chk_fail'
 others=$(nm -u symbols.o | awk '{ print $NF }' |
     grep -Evx "($roots|$angles|$rounding)[fl]?|$compiler|$processor" || true)

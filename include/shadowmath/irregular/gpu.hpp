@@ -18,21 +18,28 @@
 namespace shadowmath {
 inline namespace v0 {
 
+// Three floats in a row, whatever GLM's settings align a vec3 to.
+struct GpuFloat3 {
+    float x = 0.0f;
+    float y = 0.0f;
+    float z = 0.0f;
+};
+
 // sm_PixelFrame of glsl/irregular.glsl
 struct GpuPixelFrame {
-    Vec3<float> eye{0.0f};
+    GpuFloat3 eye;
     std::int32_t width = 0;
-    Vec3<float> across{0.0f};
+    GpuFloat3 across;
     std::int32_t height = 0;
-    Vec3<float> upward{0.0f};
+    GpuFloat3 upward;
     std::int32_t orthographic = 0;
-    Vec3<float> inward{0.0f};
+    GpuFloat3 inward;
     float origin_x = 0.0f;
-    Vec3<float> to_across{0.0f};
+    GpuFloat3 to_across;
     float origin_y = 0.0f;
-    Vec3<float> to_upward{0.0f};
+    GpuFloat3 to_upward;
     float turn_limit = 1.0f;
-    Vec3<float> to_inward{0.0f};
+    GpuFloat3 to_inward;
     float unused = 0.0f;
 };
 static_assert(offsetof(GpuPixelFrame, width) == 12 && offsetof(GpuPixelFrame, orthographic) == 44);
@@ -41,9 +48,9 @@ static_assert(offsetof(GpuPixelFrame, to_inward) == 96 && sizeof(GpuPixelFrame) 
 
 struct GpuIrregular {
     GpuPixelFrame frame;
-    Vec3<float> light_at{0.0f};
+    GpuFloat3 light_at;
     std::int32_t parallel = 1;
-    Vec3<float> source{0.0f};  // world: how the light travels, or where it stands
+    GpuFloat3 source;  // world: how the light travels, or where it stands
     float unused_light = 0.0f;
     Vec4<float> row[4]{};
     Vec4<float> seen[4]{};
@@ -81,16 +88,18 @@ static_assert(sizeof(GpuIrregular) == 336);
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
-    filled.frame = {frame.eye,       frame.width,
-                    frame.across,    frame.height,
-                    frame.upward,    frame.kind == ViewKind::orthographic ? 1 : 0,
-                    frame.inward,    frame.origin.x,
-                    frame.to_across, frame.origin.y,
-                    frame.to_upward, detail::turn_limit(frame),
-                    frame.to_inward, 0.0f};
-    filled.light_at = buffer.light.at;
+    auto const three = [](Vec3<float> const& v) { return GpuFloat3{v.x, v.y, v.z}; };
+    bool const flat = frame.kind == ViewKind::orthographic;
+    filled.frame = {three(frame.eye),       frame.width,
+                    three(frame.across),    frame.height,
+                    three(frame.upward),    flat ? 1 : 0,
+                    three(frame.inward),    frame.origin.x,
+                    three(frame.to_across), frame.origin.y,
+                    three(frame.to_upward), detail::turn_limit(frame),
+                    three(frame.to_inward), 0.0f};
+    filled.light_at = three(buffer.light.at);
     filled.parallel = buffer.light.parallel ? 1 : 0;
-    filled.source = buffer.light.parallel ? light.direction : light.position;
+    filled.source = three(buffer.light.parallel ? light.direction : light.position);
     for (int i = 0; i < 4; ++i) {
         PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
         filled.row[i] = buffer.row[i];
