@@ -31,7 +31,7 @@ all_packages=(
     gcovr python3                                                # which lines the tests reach; mutants
 )
 
-bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev nlohmann-json3-dev)
+bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev libembree-dev nlohmann-json3-dev)
 
 # Installs what is missing of the packages given, or prints the line that does and fails.
 install_packages() {
