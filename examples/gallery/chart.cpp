@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/chart.hpp"
 
-#include "examples/gallery/svg.hpp"
+#include "examples/support/svg.hpp"
 
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/footprint.hpp>
@@ -16,6 +16,10 @@
 #include <map>
 
 namespace shadowmath::gallery {
+
+using example::figure;
+using example::Points;
+using example::Svg;
 namespace {
 
 constexpr double z_near = 1.0, z_far = 1000.0;

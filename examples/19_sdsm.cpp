@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// Cascades fitted to what the eye sees, pixel by pixel. Seen from the light: the samples of one picture, the maps
+// around them, and (dashed) the stable maps of the same splits.
+#include "examples/support/drawing.hpp"
+#include "examples/support/example.hpp"
+#include "examples/support/raster.hpp"
+
+#include <shadowmath/sdsm.hpp>
+
+#include <glm/matrix.hpp>
+
+namespace sm = shadowmath;
+
+int main(int argc, char** argv) {
+    sm::example::Proof proof(argc, argv);
+    auto const village = sm::example::village();
+    auto const view = sm::example::village_view();
+    auto const sun = sm::directional(sm::example::afternoon_sun);
+    constexpr int width = 480, height = 270;
+    auto const seen = sm::example::surfaces_of(view, width, height, village.triangles);
+
+    sm::SampleDepths<float> depths = sm::no_depths(view.z_near, view.z_far);
+    for (auto const& pixel : seen) sm::add(depths, pixel.eye_depth);
+    sm::SampleBounds<float> bounds = sm::no_bounds(sm::sample_splits(depths, 4, sm::SampleSplits::adaptive));
+    sm::SampleRays<float> const rays = sm::sample_rays(view, sun, width, height);
+    for (int i = 0; i < width * height; ++i)
+        sm::add(bounds, rays, i % width, i / width, seen[std::size_t(i)].eye_depth);
+    sm::SampleFitOptions<float> options;
+    auto const fitted = sm::fit_samples(rays, bounds, village.casters, options);
+
+    sm::CascadeOptions<float> whole;
+    whole.first_split_end = bounds.range[0].end;
+    auto const stable = sm::fit_cascades(view, sun, village.casters, village.receivers, whole);
+
+    bool inside = true;
+    for (auto const& pixel : seen)
+        for (int c = 0; c < fitted.count; ++c) {
+            if (!(pixel.eye_depth >= fitted.at[c].range.begin && pixel.eye_depth < fitted.at[c].range.end)) continue;
+            glm::vec4 const at = fitted.at[c].map.clip_from_world * glm::vec4(pixel.point, 1.0f);
+            float const side = 1.0f - 2.0f * options.margin_texels / float(options.map_size) + 1e-4f;
+            inside = inside && std::abs(at.x) <= side && std::abs(at.y) <= side;
+        }
+    proof.that(inside, "Every sample is inside its map, margin included.");
+
+    sm::LightBasis<float> const basis = sm::light_basis(sun.direction);
+    auto const in_light = [&](glm::vec3 p) { return glm::dvec2(glm::dot(basis.x, p), glm::dot(basis.y, p)); };
+    sm::example::Drawing drawing("Seen from the light: samples, fitted maps, stable maps", {-75, -50}, {95, 65}, 720);
+    for (std::size_t i = 0; i < seen.size(); i += 61) {
+        if (!(seen[i].eye_depth > 0.0f)) continue;
+        int map = 0;
+        while (map + 1 < fitted.count && seen[i].eye_depth >= fitted.at[map].range.end) ++map;
+        char const css_class[] = {'d', static_cast<char>('0' + map), '\0'};
+        drawing.dot(in_light(seen[i].point), css_class, 1.0);
+    }
+    for (int c = 0; c < fitted.count; ++c)
+        for (auto const* maps : {&fitted, &stable}) {
+            glm::mat4 const world_from_clip = glm::inverse(maps->at[c].map.clip_from_world);
+            std::vector<glm::dvec2> sides;
+            for (glm::vec2 const corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
+                sides.push_back(in_light(glm::vec3(world_from_clip * glm::vec4(corner, 0.5f, 1.0f))));
+            char const css_class[] = {'s', static_cast<char>('0' + c), '\0'};
+            drawing.area(sides, maps == &fitted ? css_class : "dash");
+        }
+    drawing.write(proof.folder() / "sdsm.svg");
+    bool smaller = true;
+    for (int c = 0; c < fitted.count; ++c) {
+        std::printf("map %d: texels of %.1f cm, stable %.1f cm\n", c, 100 * fitted.at[c].texel_metres,
+                    100 * stable.at[c].texel_metres);
+        smaller = smaller && fitted.at[c].texel_metres < stable.at[c].texel_metres;
+    }
+    proof.that(smaller, "Each map has smaller texels than the stable one.");
+    return proof.result();
+}
