@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
         for (int i = 0; i <= splits.count; ++i) std::printf(" %8.3f", splits.plane[i]);
         std::printf("\n");
         for (int i = 0; i < splits.count; ++i) {
-            char const css_class[] = {'c', static_cast<char>('0' + i), '\0'};
+            std::string const css_class = "c" + std::to_string(i);
             drawing.box({splits.plane[i], row}, {splits.plane[i + 1], row + 0.5}, css_class);
         }
         drawing.label({1, row}, name, "start", {2, 14}, "small");

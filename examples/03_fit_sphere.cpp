@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
                 sm::slice(view_along({std::sin(turn), 0.2f, std::cos(turn)}), sm::slice_range(splits, i));
             same = same && sm::bounding_sphere(turned).radius == ball.radius;
         }
-        char const filled[] = {'c', static_cast<char>('0' + i), '\0'};
+        std::string const filled = "c" + std::to_string(i);
         drawing.circle({-ball.center.z, ball.center.x}, ball.radius, filled);
         drawing.circle({-middle.z, middle.x}, reach, "dash");
         std::vector<glm::dvec2> outline;

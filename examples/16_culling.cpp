@@ -4,11 +4,9 @@
 // map is grey.
 #include "examples/support/drawing.hpp"
 #include "examples/support/example.hpp"
-#include "examples/support/village.hpp"
+#include "examples/support/raster.hpp"
 
 #include <shadowmath/cascades.hpp>
-
-#include <glm/matrix.hpp>
 
 namespace sm = shadowmath;
 
@@ -27,14 +25,12 @@ int main(int argc, char** argv) {
     auto const above = [](glm::vec3 p) { return glm::dvec2(-p.z, p.x); };
     for (int i = cascades.count; i-- > 0;) {
         // Where the map's four sides meet the ground.
-        glm::mat4 const world_from_clip = glm::inverse(cascades.at[i].map.clip_from_world);
+        auto const first = sm::example::corners_at(cascades.at[i].map, 0.0f);
+        auto const last = sm::example::corners_at(cascades.at[i].map, 1.0f);
         std::vector<glm::dvec2> sides;
-        for (glm::vec2 const corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-            glm::vec3 const a(world_from_clip * glm::vec4(corner, -1.0f, 1.0f)),
-                b(world_from_clip * glm::vec4(corner, 1.0f, 1.0f));
-            sides.push_back(above(a + (b - a) * (a.y / (a.y - b.y))));
-        }
-        char const css_class[] = {'c', static_cast<char>('0' + i), '\0'};
+        for (std::size_t k = 0; k < 4; ++k)
+            sides.push_back(above(first[k] + (last[k] - first[k]) * (first[k].y / (first[k].y - last[k].y))));
+        std::string const css_class = "c" + std::to_string(i);
         drawing.area(sides, css_class);
     }
     int draws = 0, spared = 0;
@@ -52,7 +48,7 @@ int main(int argc, char** argv) {
                 none_missed = none_missed && (casts || std::abs(at.x) > 1.0f || std::abs(at.y) > 1.0f || at.z > 1.0f);
             }
         }
-        char const css_class[] = {'d', static_cast<char>('0' + first), '\0'};
+        std::string const css_class = "d" + std::to_string(first);
         drawing.box(above({object.lo.x, 0, object.hi.z}), above({object.hi.x, 0, object.lo.z}), css_class);
     }
     drawing.dot(above({0.4f, 0, 7.5f}), "d4", 5);

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     drawing.box({26, 0}, {26 + size, size}, "ground");
     for (int i = 0; i < scroll.fresh.count; ++i) {
         sm::TexelRect const& rect = scroll.fresh.at[std::size_t(i)];
-        char const css_class[] = {'c', static_cast<char>('0' + i), '\0'};
+        std::string const css_class = "c" + std::to_string(i);
         drawing.box({x + rect.x, y + rect.y}, {x + rect.x + rect.width, y + rect.y + rect.height}, css_class);
         auto const parts = sm::wrapped(after, rect);
         for (int k = 0; k < parts.count; ++k) {

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     for (auto const& [page, pixels] : asked) {
         auto const& [level, x, y] = page;
         double const metres = double(windows.level[std::size_t(level)].texel_metres) * options.page_texels;
-        char const css_class[] = {'c', static_cast<char>('0' + level % 4), '\0'};
+        std::string const css_class = "c" + std::to_string(level % 4);
         drawing.box(metres * glm::dvec2(x, y), metres * glm::dvec2(x + 1, y + 1), css_class);
     }
     for (int level = 0; level < windows.count; ++level) {

@@ -8,8 +8,6 @@
 
 #include <shadowmath/sdsm.hpp>
 
-#include <glm/matrix.hpp>
-
 namespace sm = shadowmath;
 
 int main(int argc, char** argv) {
@@ -46,20 +44,18 @@ int main(int argc, char** argv) {
     sm::LightBasis<float> const basis = sm::light_basis(sun.direction);
     auto const in_light = [&](glm::vec3 p) { return glm::dvec2(glm::dot(basis.x, p), glm::dot(basis.y, p)); };
     sm::example::Drawing drawing("Seen from the light: samples, fitted maps, stable maps", {-75, -50}, {95, 65}, 720);
-    for (std::size_t i = 0; i < seen.size(); i += 61) {
+    for (std::size_t i = 0; i < seen.size(); i += 151) {
         if (!(seen[i].eye_depth > 0.0f)) continue;
         int map = 0;
         while (map + 1 < fitted.count && seen[i].eye_depth >= fitted.at[map].range.end) ++map;
-        char const css_class[] = {'d', static_cast<char>('0' + map), '\0'};
+        std::string const css_class = "d" + std::to_string(map);
         drawing.dot(in_light(seen[i].point), css_class, 1.0);
     }
     for (int c = 0; c < fitted.count; ++c)
         for (auto const* maps : {&fitted, &stable}) {
-            glm::mat4 const world_from_clip = glm::inverse(maps->at[c].map.clip_from_world);
             std::vector<glm::dvec2> sides;
-            for (glm::vec2 const corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
-                sides.push_back(in_light(glm::vec3(world_from_clip * glm::vec4(corner, 0.5f, 1.0f))));
-            char const css_class[] = {'s', static_cast<char>('0' + c), '\0'};
+            for (glm::vec3 const& p : sm::example::corners_at(maps->at[c].map, 0.5f)) sides.push_back(in_light(p));
+            std::string const css_class = "s" + std::to_string(c);
             drawing.area(sides, maps == &fitted ? css_class : "dash");
         }
     drawing.write(proof.folder() / "sdsm.svg");

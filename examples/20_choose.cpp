@@ -52,9 +52,10 @@ int main(int argc, char** argv) {
             best = best && choice.judgement.all.mean <= mean * 1.02f;
             curve.emplace_back(tried.lambda, std::log2(mean));
         }
-        char const css_class[] = {'s', static_cast<char>('0' + count - 1), '\0'};
+        std::string const css_class = "s" + std::to_string(count - 1);
         drawing.path(curve, css_class);
-        drawing.label(curve.back(), std::to_string(count) + (count == 1 ? " map" : " maps"), "start", {6, 4});
+        drawing.label(curve.back(), std::to_string(count) + (count == 1 ? " map" : " maps"), "start",
+                      {6, count == 3 ? 12 : 2});
     }
     for (int octave = 0; octave <= 4; ++octave)
         drawing.label({-0.01, octave}, std::to_string(1 << octave), "end", {0, 4}, "small");

@@ -26,22 +26,15 @@ int main(int argc, char** argv) {
     options.clip = sm::gl_zero_to_one_clip;
     sm::ShadowMap<float> const map = sm::fit_cascades(view, sun, village.casters, village.receivers, options).at[0].map;
 
-    // What the eye sees, and what casts, as arrays of plain numbers.
+    // What the eye sees, and what casts, as they lie in memory.
     auto const seen = sm::example::surfaces_of(view, width, height, village.triangles);
-    std::vector<float> position, normal, vertex;
-    for (auto const& at : seen) {
-        position.insert(position.end(), {at.point.x, at.point.y, at.point.z});
-        normal.insert(normal.end(), {at.normal.x, at.normal.y, at.normal.z});
-    }
+    constexpr int stride = sizeof(sm::example::Surface) / sizeof(float);
+    sm::Receivers<float> const receivers{&seen[0].point.x, stride, nullptr, &seen[0].normal.x, stride};
+    std::vector<glm::vec3> vertices;
     for (auto const& triangle : village.triangles)
-        for (glm::vec3 const& p : triangle.at) vertex.insert(vertex.end(), {p.x, p.y, p.z});
-    sm::Receivers<float> receivers;
-    receivers.position = position.data();
-    receivers.normal = normal.data();
-    sm::Casters<float> casters;
-    casters.position = vertex.data();
-    casters.vertex_count = std::uint32_t(vertex.size() / 3);
-    casters.triangle_count = casters.vertex_count / 3;
+        vertices.insert(vertices.end(), triangle.at.begin(), triangle.at.end());
+    auto const vertex_count = std::uint32_t(vertices.size());
+    sm::Casters<float> const casters{&vertices[0].x, 3, vertex_count, nullptr, vertex_count / 3};
 
     sm::StorageSize const size = sm::storage_for(width, height, 128);
     std::vector<float> scalars(size.scalars);

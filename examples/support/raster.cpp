@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,15 @@ Picture picture_of(DepthMap const& map) {
             picture.at(x, y) = encoded(depth < 1.0f ? grey : nothing);
         }
     return picture;
+}
+
+std::array<glm::vec3, 4> corners_at(ShadowMap<float> const& map, float depth) {
+    glm::mat4 const world_from_texture = glm::inverse(texture_from_world(map));
+    auto const at = [&](float u, float v) {
+        glm::vec4 const p = world_from_texture * glm::vec4(u, v, depth, 1.0f);
+        return glm::vec3(p) / p.w;
+    };
+    return {at(0.0f, 0.0f), at(1.0f, 0.0f), at(1.0f, 1.0f), at(0.0f, 1.0f)};
 }
 
 glm::vec3 heat(float share) {

@@ -13,6 +13,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <array>
 #include <functional>
 #include <span>
 
@@ -58,6 +59,9 @@ using Picture = backend::Image<backend::Rgba8>;
 
 // Depths as grey: near the light bright, nothing blue.
 [[nodiscard]] Picture picture_of(DepthMap const& map);
+
+// The corners of the map's square in the world, at this depth of it.
+[[nodiscard]] std::array<glm::vec3, 4> corners_at(ShadowMap<float> const& map, float depth);
 
 // From 0 to 1, by way of green and yellow: for numbers that are laid over a picture.
 [[nodiscard]] glm::vec3 heat(float share);
