@@ -2,7 +2,7 @@
 #
 # Makes what doxygen reads of what the headers say: the // block at a file's head is about the file, the one before a
 # declaration about that, one behind a member about the member. Indented by three blanks and more, it is a figure.
-function flush_run(next_line, indent, i, text, figure, prefix, documents, file_head) {
+function flush_run(next_line, indent, i, text, figure, documents, file_head) {
     if (run == 0) return
     file_head = head && kept[1] ~ /SPDX/
     documents = next_line !~ /^ *$/ && next_line !~ /^ *(#|namespace|inline namespace|\}|public:|private:)/ &&
@@ -10,23 +10,26 @@ function flush_run(next_line, indent, i, text, figure, prefix, documents, file_h
     if (!file_head && !documents) {
         for (i = 1; i <= run; ++i) print kept[i]
     } else {
-        prefix = indent "///"
-        if (file_head) print prefix " \\file"
+        print indent "/**" (file_head ? " \\file" : "")
         figure = 0
         for (i = file_head ? 2 : 1; i <= run; ++i) {
             text = kept[i]
-            sub(/^ *\/\//, "", text)
-            if (!figure && text ~ /^   /) { print prefix " \\verbatim"; figure = 1 }
-            if (figure && text !~ /^   / && text != "") { print prefix " \\endverbatim"; figure = 0 }
-            print prefix (figure ? text : escaped(text))
+            sub(/^ *\/\/ ?/, "", text)
+            if (!figure && text ~ /^  /) { print "\\verbatim"; figure = 1 }
+            if (figure && text !~ /^  / && text != "") { print "\\endverbatim"; figure = 0 }
+            print figure ? text : escaped(text)
         }
-        if (figure) print prefix " \\endverbatim"
+        if (figure) print "\\endverbatim"
+        print "*/"
     }
     run = 0
     head = 0
 }
 function escaped(text) {
     gsub(/[\\@<>&#%]/, "\\\\&", text)
+    while (match(text, /`[^`]+`/))
+        text = substr(text, 1, RSTART - 1) "<code>" substr(text, RSTART + 1, RLENGTH - 2) "</code>" \
+               substr(text, RSTART + RLENGTH)
     return text
 }
 BEGIN { head = 1 }
