@@ -69,7 +69,8 @@ done | report 'not in the index, docs/README.md'
 
 # Every header and every file of the GLSL library is named on a page, every test that is named exists.
 find include/shadowmath \( -name '*.hpp' -o -name '*.glsl' \) -printf '%P\n' | sort | while IFS= read -r header; do
-    grep -qE -- "\`(glsl/)?${header#glsl/}\`" "${pages[@]}" || [[ $header == shadowmath.hpp ]] || printf '%s\n' "$header"
+    [[ $header == shadowmath.hpp ]] || grep -qE -- "\`(glsl/)?${header#glsl/}\`" "${pages[@]}" ||
+        printf '%s\n' "$header"
 done | report 'on no page'
 grep -rhoP '^(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP)\(\K\w+, *\w+' tests examples --include='*.cpp' |
     sed 's/, */./' | sort -u > "$fresh/tests"

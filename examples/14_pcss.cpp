@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Soft shadows from one ordinary map: sharp where the post meets the ground, wide where its top casts. The real sun, one
-// four times as wide, and one sixteen times.
+// Soft shadows from one ordinary map: sharp where the post meets the ground, wide where its top casts. The real sun,
+// one four times as wide, and one sixteen times.
 #include "examples/support/example.hpp"
 #include "examples/support/png.hpp"
 #include "examples/support/raster.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Nothing but the headers and a renderer of one's own: a ray tracer of twenty lines, which draws maps and picture alike.
-// Of shadowmath it needs a matrix and a bias for each map, and where the slices end. (Only the PNG file is support's.)
+// Nothing but the headers and a renderer of one's own: a ray tracer of twenty lines, which draws maps and picture
+// alike. Of shadowmath it needs a matrix and a bias for each map, and where the slices end. (Only the PNG file is
+// support's.)
 #include "examples/support/example.hpp"
 #include "examples/support/png.hpp"
 

@@ -12,19 +12,19 @@
 namespace sm = shadowmath;
 
 // The eye and what it sees.
-extern glm::vec3 const eye, forward, up;                // world
+extern glm::vec3 const eye, forward, up;  // world
 extern float const fov_y_radians, aspect, z_near, z_far;
 extern sm::ViewVolume<float> const view;
-extern glm::mat4 const projection;                      // clip_from_view, of the renderer
+extern glm::mat4 const projection;  // clip_from_view, of the renderer
 extern glm::vec2 const eye_pixels;
-extern int const width, height;                         // of the picture
-extern float const eye_depth;                           // of the receiver, metres
+extern int const width, height;  // of the picture
+extern float const eye_depth;    // of the receiver, metres
 
 // Lights and the scene.
 extern glm::vec3 const sun_travel, lamp_position, lamp_axis;
 extern sm::Light<float> const sun, lamp;
-extern sm::Aabb<float> const casters, receivers;        // world boxes
-extern glm::vec3 const point, normal;                   // of a receiver
+extern sm::Aabb<float> const casters, receivers;  // world boxes
+extern glm::vec3 const point, normal;             // of a receiver
 extern std::uint64_t const frame;
 
 // Maps.
