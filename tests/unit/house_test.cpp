@@ -134,6 +134,18 @@ TEST(House, TheVisualStudioDebuggerKnowsEveryFault) {
     EXPECT_GE(count, 16);
 }
 
+TEST(House, BothDebuggersKnowTheSameTypes) {
+    std::string const natvis = text_of(root / "debug/shadowmath.natvis"),
+                      gdb = text_of(root / "debug/shadowmath_gdb.py");
+    auto const seen_by_natvis = matches(natvis, std::regex("<Type Name=\"shadowmath::v0::(\\w+)"));
+    for (std::string const& type : seen_by_natvis)
+        EXPECT_TRUE(std::regex_search(gdb, std::regex("\n    \"" + type + "\": |for kind in \\(.*\\b" + type + "\\b")))
+            << type;
+    for (std::string const& type : matches(gdb, std::regex("\n    \"(\\w+)\": ")))
+        EXPECT_NE(natvis.find("v0::" + type), std::string::npos) << type;
+    EXPECT_GE(seen_by_natvis.size(), 30u);
+}
+
 TEST(House, EveryHeaderHasLawsOrAUnitTest) {
     for (fs::path const& header : sources_under("include/shadowmath")) {
         std::string const name = header.stem().string();
