@@ -12,6 +12,8 @@
 #include <cstdio>
 
 namespace shadowmath::gallery {
+
+using example::write_png;
 namespace {
 
 namespace fs = std::filesystem;
