@@ -104,8 +104,7 @@ std::vector<Entry> const& entries() {
         {{"vdsm-fallback", "View-dependent map, uniform map behind it", "Kwon 2002", 1024, 2, true},
          true,
          before_uniform(thesis_map)},
-        {{"vdsm-chosen", "View-dependent map, chosen plane, uniform behind", "after Kwon 2002", 1024, 2, false,
-          true},
+        {{"vdsm-chosen", "View-dependent map, chosen plane, uniform behind", "after Kwon 2002", 1024, 2, false, true},
          false,
          before_uniform(chosen_plane_map)},
     };
