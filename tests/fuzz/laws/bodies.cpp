@@ -51,7 +51,7 @@ void try_bodies(Case& c) {
 
     LightBasis<T> const basis = light_basis(sun.direction);
     T const margin = c.uniform<T>(T(0), T(8));
-    int const size = 19 + c.below(8000);
+    int const size = 64 + c.below(8000);
     LightBox<T> const box =
         c.call([&] { return fit_rectangle(basis, cut.body, size, margin, direction<T>(c), c.number<T>()); });
     c.require(laws::is_a_box(box), "a rectangle has an extent");
