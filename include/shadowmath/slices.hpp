@@ -50,7 +50,8 @@ template <class T>
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// False, and `seen` not written, where a number is not finite or beyond 2^60 m, or a side is crossed.
+// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or a
+// side crossed.
 template <class T>
 [[nodiscard]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view, ViewInLight<T>& seen) noexcept {
     // NOTE: whole runs of numbers are copied, as vectors are; what is written one by one would wait to be read as one.
@@ -58,9 +59,10 @@ template <class T>
     T of_view[16], of_basis[8];
     std::memcpy(of_view, &view, sizeof of_view);
     std::memcpy(of_basis, &basis, sizeof of_basis);
-    auto beyond = beyond_reach(std::abs(basis.depth.z));
+    // NOTE: with longer axes the rounding that is allowed for would be too little, and a map without extent.
+    auto beyond = beyond_reach(std::abs(basis.depth.z) * T(0x1p59));
     for (int i = 0; i < 16; ++i) beyond |= beyond_reach(std::abs(of_view[i]));
-    for (int i = 0; i < 8; ++i) beyond |= beyond_reach(std::abs(of_basis[i]));
+    for (int i = 0; i < 8; ++i) beyond |= beyond_reach(std::abs(of_basis[i]) * T(0x1p59));
     if (beyond >> (8 * sizeof beyond - 1) != 0 || !(view.left < view.right) || !(view.bottom < view.top)) return false;
     seen.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
     seen.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
@@ -133,7 +135,8 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
 // clip_from_world[i] is the map of slice i: the smallest light-space box around it, and no depth but the slice's own.
 // Each corner of each slice is inside. `border` is the part of the map's side that is kept free on each of the four
 // sides, for filters: 2.0f / 2048 for two texels; [0, 0.49]. Writes splits.count matrices and says true; or nowhere()
-// and false, where a number is not finite or beyond 2^60 m, a side is crossed, or the border outside its range.
+// and false, where a number is not finite or beyond 2^60 m, an axis is no axis, a side crossed, or the border outside
+// its range.
 template <class T>
 [[nodiscard]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                           Splits<T> const& splits, T border, ClipSpace clip,
