@@ -2,6 +2,7 @@
 #include "examples/gallery/results.hpp"
 
 #include "examples/gallery/pictures.hpp"
+#include "examples/gallery/promises.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -68,7 +69,8 @@ Json to_json(WayRecord const& w) {
             {"unlike_texels", w.unlike_texels},
             {"largest_difference", w.largest_difference},
             {"pixels", w.pixels},
-            {"unlike_pixels", w.unlike_pixels}};
+            {"unlike_pixels", w.unlike_pixels},
+            {"unlike_off_edges", w.unlike_off_edges}};
 }
 
 Json to_json(Parity const& p) {
@@ -83,6 +85,18 @@ Json to_json(Parity const& p) {
             {"pixels", p.pixels},
             {"unlike_pixels", p.unlike_pixels},
             {"unlike_off_edges", p.unlike_off_edges}};
+}
+
+Json to_json(FitRecord const& f) {
+    return {{"scene", f.scene},
+            {"backend", f.backend},
+            {"pictures", f.pictures},
+            {"maps", f.maps},
+            {"unlike_maps", f.unlike_maps},
+            {"texels", f.texels},
+            {"unlike_texels", f.unlike_texels},
+            {"pixels", f.pixels},
+            {"unlike_pixels", f.unlike_pixels}};
 }
 
 Json to_json(Claim const& c) {
@@ -192,6 +206,9 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
         {"records", list(results.records)},
         {"ways", list(results.ways)},
         {"parity", list(results.parity)},
+        {"fits", list(results.fits)},
+        {"judged", share_a_rasteriser(backends)},
+        {"broken", broken_promises(results)},
         {"claims", list(results.claims)},
         {"close_ups", list(results.close_ups)},
         {"machine", {{"backends", drivers}, {"threads", std::thread::hardware_concurrency()}}},

@@ -5,6 +5,7 @@
 
 #include "examples/gallery/claims.hpp"
 #include "examples/gallery/close_ups.hpp"
+#include "examples/gallery/device_fit.hpp"
 #include "examples/gallery/parity.hpp"
 #include "examples/gallery/record.hpp"
 #include "examples/gallery/settings.hpp"
@@ -25,6 +26,7 @@ struct Results {
     std::vector<Record> records;
     std::vector<WayRecord> ways;  // of the first view of each scene
     std::vector<Parity> parity;   // of each scene and backend but the first
+    std::vector<FitRecord> fits;  // of each scene and backend
     std::vector<Claim> claims;
     std::vector<CloseUp> close_ups;
 };

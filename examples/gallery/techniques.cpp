@@ -227,7 +227,10 @@ void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_devic
     for (std::uint32_t i = 0; i < in.scene.objects.size(); ++i)
         if (in.scene.objects[i].casts) all_casters.push_back(i);
     for (int i = 0; i < (on_device ? splits.count : fitted.count); ++i) {
-        Cascade<float> const& cascade = fitted.at[i];
+        Cascade<float> cascade;  // of a split that was not needed: it ends where it begins, at the far end
+        cascade.map.clip_from_world = nowhere<float>();
+        cascade.range = {shadow_distance, shadow_distance, shadow_distance};
+        if (i < fitted.count) cascade = fitted.at[i];
         MapBias<float> const bias = bias_for(cascade.map, light, in.map_size, BiasOptions<float>{});
         MapConstants& constants = set.frame.maps[set.maps.size()];
         constants.clip_from_world = cascade.map.clip_from_world;

@@ -80,8 +80,29 @@ function waysFound() {
   return found.join(" ");
 }
 
+function fitsFound() {
+  const [maps, unlike, pictures] = ["maps", "unlike_maps", "pictures"].map(key => totalOf(fits, key));
+  if (!maps) return "";
+  return `${whole(maps)} maps in ${whole(pictures)} pictures were fitted on the device to the depth that the eye saw, and used there: ` +
+    (unlike ? `${whole(unlike)} are not the C++’s` : "all have the bits of the C++’s matrices") +
+    `; of ${whole(totalOf(fits, "texels"))} texels drawn with them ${whole(totalOf(fits, "unlike_texels"))} and of ` +
+    `${whole(totalOf(fits, "pixels"))} pixels ${whole(totalOf(fits, "unlike_pixels"))} are unlike.`;
+}
+
+// What promises.hpp found.
+function verdict() {
+  if (!judged) return "These drivers do not share a rasteriser, so their differences are told but not judged.";
+  return broken.length ? `Broken here, against what is promised: ${broken.join("; ")}.` :
+    "Nothing that is promised is broken here: the same texels covered, depths within 2 ulp, pixels alike off edges, the same maps " +
+    "in every way, no triangle drawn into a map that its object does not cast into, and the device’s fits those of the C++.";
+}
+
 function parityTable() {
-  if (!parity.length) byId("parity").hidden = true;
+  byId("fits-found").textContent = fitsFound();
+  byId("judged").textContent = verdict();
+  byId("judged").classList.toggle("warning", judged && broken.length > 0);
+  byId("parity-table").hidden = !parity.length;
+  if (!parity.length) return;
   const columns = [
     ["Scene", p => word(p.scene)], ["Driver", p => p.backend], ["Maps", p => whole(p.maps)], ["Texels covered", p => whole(p.covered_texels)],
     ["in one only", p => whole(p.covered_in_one)], ["at another depth", p => whole(p.unlike_texels)], ["ulp, at most", p => whole(p.largest_ulp)],
