@@ -68,13 +68,22 @@ bool is_border(backend::Frame const& frame, int x, int y) {
     return is_edge(frame.colour, x, y);
 }
 
+// As if an outline had moved by less than a pixel, be the two sides of it ever so alike.
+bool shows_within_a_pixel(Image<Rgba8> const& picture, int x, int y, Rgba8 colour) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.extent.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.extent.width - 1); ++u)
+            if (difference(picture.at(u, v), colour) <= 1) return true;
+    return false;
+}
+
 void compare_pictures(WayRecord& record, backend::Frame const& expected, Image<Rgba8> const& drawn) {
     record.pixels = static_cast<long>(drawn.pixels.size());
     for (int y = 0; y < drawn.extent.height; ++y)
         for (int x = 0; x < drawn.extent.width; ++x) {
             int const apart = difference(expected.colour.at(x, y), drawn.at(x, y));
             record.unlike_pixels += apart > 0;
-            record.unlike_off_edges += apart > 1 && !is_border(expected, x, y);
+            record.unlike_off_edges += apart > 1 && !is_border(expected, x, y) &&
+                                       !shows_within_a_pixel(expected.colour, x, y, drawn.at(x, y));
         }
 }
 

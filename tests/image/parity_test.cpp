@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <iostream>
 
 namespace {
@@ -193,6 +194,23 @@ TEST(ShaderSource, OpenGlTakesTheCompiledWordsWhereTheyAreThere) {
     if (!try_vulkan(vulkan, {})) GTEST_SKIP() << "NOT TESTED: the build may have had no glslangValidator";
     EXPECT_EQ(egl->info().shaders, "SPIR-V");
     EXPECT_EQ(vulkan->info().shaders, "SPIR-V");
+}
+
+// As on a driver that cannot take compiled words: the environment variable is Mesa's.
+TEST(ShaderSourceDeathTest, OpenGlFallsBackToTextWhereTheExtensionIsAbsent) {
+    auto const egl = make_gl_backend(GlContextKind::egl);
+    if (egl->info().driver.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "NOT TESTED on another driver";
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    auto const report = [&] {
+        Scene const scene = random_triangles(3, 100);
+        auto const expected = draw_map(*egl, scene, 128, true, all_objects(scene)).pixels;
+        setenv("MESA_EXTENSION_OVERRIDE", "-GL_ARB_gl_spirv", 1);
+        auto const without = make_gl_backend(GlContextKind::egl);
+        bool const same = draw_map(*without, scene, 128, true, all_objects(scene)).pixels == expected;
+        std::cerr << without->info().shaders << (same ? ", the same map\n" : ", another map\n");
+        std::exit(0);
+    };
+    EXPECT_EXIT(report(), testing::ExitedWithCode(0), "^GLSL, the same map\n$");
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ TEST_P(PcssTwins, GapInCone) {
         auto const drawn = plane(draw);
         Vec4<float> const at = place(draw);
         MapPenumbra<float> const of_map = penumbra(draw);
-        float const least = draw.spoilt(draw.uniform(0.0f, 0.1f)), widest = draw.spoilt(draw.log_uniform(0.1f, 10.0f));
+        float const least = draw.spoilt(draw.uniform(0.0f, 0.1f)), widest = draw.log_uniform(0.1f, 10.0f);
         given(layer);
         give(given, drawn);
         given(at);
