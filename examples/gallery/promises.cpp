@@ -52,6 +52,14 @@ void judge(Broken& broken, FitRecord const& f) {
     broken.beyond(f.pixels / 100000, f.unlike_pixels, "pixels are unlike those that the C++'s maps give");
 }
 
+// A few thousand decisions are too few to tell one in ten thousand.
+void judge(Broken& broken, FlightRecord const& f) {
+    if (!f.stable || f.decisions < 100000) return;
+    broken.of(f.scene + ", " + f.policy + " under way");
+    broken.beyond(static_cast<long>(most_shimmer * static_cast<double>(f.decisions)), f.flips,
+                  "of " + std::to_string(f.decisions) + " decisions flip");
+}
+
 }  // namespace
 
 bool share_a_rasteriser(Backends backends) {
@@ -68,6 +76,7 @@ std::vector<std::string> broken_promises(Results const& results) {
         judge(broken, way, *std::ranges::find_if(results.ways, is_first));
     }
     for (FitRecord const& fit : results.fits) judge(broken, fit);
+    for (FlightRecord const& flight : results.flights) judge(broken, flight);
     return sentences;
 }
 

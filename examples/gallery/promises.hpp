@@ -2,7 +2,7 @@
 //
 // What every run must show, whatever its scenes: drivers that share a rasteriser draw the same maps and pictures, every
 // way to draw the maps gives the same maps and processes a triangle once for each map that its object casts into, and
-// the device fits the maps that the C++ fits.
+// the device fits the maps that the C++ fits. And stable maps do not crawl.
 #pragma once
 
 #include "examples/gallery/run.hpp"

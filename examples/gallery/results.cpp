@@ -99,6 +99,24 @@ Json to_json(FitRecord const& f) {
             {"unlike_pixels", f.unlike_pixels}};
 }
 
+Json to_json(FlightRecord const& f) {
+    return {{"scene", f.scene},
+            {"view", f.view},
+            {"policy", f.policy},
+            {"title", f.title},
+            {"stable", f.stable},
+            {"frames", f.frames},
+            {"map_size", f.map_size},
+            {"maps", f.maps},
+            {"points", f.points},
+            {"decisions", f.decisions},
+            {"flips", f.flips},
+            {"decisions_within", f.decisions_within},
+            {"flips_within", f.flips_within},
+            {"shimmer", shimmer(f)},
+            {"shimmer_within", shimmer_within(f)}};
+}
+
 Json to_json(Claim const& c) {
     return {{"id", c.id},       {"source", c.source}, {"statement", c.statement}, {"measured", c.measured},
             {"holds", c.holds}, {"reason", c.reason}};
@@ -207,6 +225,7 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
         {"ways", list(results.ways)},
         {"parity", list(results.parity)},
         {"fits", list(results.fits)},
+        {"flights", list(results.flights)},
         {"judged", share_a_rasteriser(backends)},
         {"broken", broken_promises(results)},
         {"claims", list(results.claims)},
@@ -220,6 +239,7 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
           {"way_runs", settings.way_runs()},
           {"filter_radius", filter_radius},
           {"edge_radius_pixels", 1.25}}},
+        {"shown_on_every_driver", shown_on_every_driver},
         {"techniques", list(techniques(settings.quick))},
         {"scenes", shown},
         {"palette", {{"footprint", heat}, {"maps", tints}}},

@@ -52,7 +52,8 @@ public:
     }
 
     // One record a backend, each given to `take` as soon as it is there; parity holds one for each but the first.
-    void show(Technique const& technique, std::span<Parity> parity, std::span<FitRecord> fits,
+    // `beside`: the others' pictures are written too.
+    void show(Technique const& technique, bool beside, std::span<Parity> parity, std::span<FitRecord> fits,
               std::function<void(Record)> const& take) {
         MapSet const maps = fit_on(*backends_.front(), technique, scene_, view_, settings_.extent);
         Drawn first;
@@ -76,6 +77,8 @@ public:
                 write_pictures(technique, rendered.frame, drawn.maps, measured);
                 first = std::move(drawn);
             } else {
+                if (beside && std::ranges::count(shown_on_every_driver, technique.id) > 0)
+                    write_png(path(technique.id + "-picture-" + record.backend), drawn.picture);
                 record.unlike_first_backend_fraction = unlike_fraction(first.picture, drawn.picture);
                 compare(parity[i - 1], first, drawn);
             }
@@ -177,22 +180,30 @@ Results run(Settings const& settings, std::span<scenes::NamedScene const> scenes
         std::vector<FitRecord> fits;
         for (auto const& backend : backends) fits.push_back({named.scene.name, backend->info().name});
         for (scenes::View const& view : chosen_views(named, settings)) {
+            bool const is_first = &view == named.views.data();
             ViewShow show(settings, named.scene, view, backends, oracle, folder);
             for (Technique const& technique : all) {
                 if (!serves(view)(technique)) continue;
-                show.show(technique, parity, fits, [&](Record record) {
+                show.show(technique, is_first, parity, fits, [&](Record record) {
                     results.records.push_back(std::move(record));
                     Record const& kept = results.records.back();
                     tell(place(results.records.size(), total, kept) + percent(kept.mis_shadowed_fraction_off_edge) +
                          " off edge");
                 });
             }
-            if (&view != named.views.data()) continue;
+            if (!is_first) continue;
             tell("measuring the ways to draw the maps of " + named.scene.name);
             for (auto const& backend : backends) {
                 std::ranges::move(show.ways(*backend), std::back_inserter(results.ways));
                 for (std::string const& message : backend->take_messages()) tell("driver: " + message);
             }
+            if (view.has_spot) continue;
+            tell("flying through " + named.scene.name + ", " + std::to_string(settings.flight_frames()) + " frames");
+            std::ranges::move(fly(*backends.front(), oracle, named.scene, view, settings.flight_frames(),
+                                  settings.flight_map_size(), [&tell](int frame) {
+                                      if (frame % 50 == 49) tell("frame " + std::to_string(frame + 1));
+                                  }),
+                              std::back_inserter(results.flights));
         }
         std::ranges::move(parity, std::back_inserter(results.parity));
         std::ranges::move(fits, std::back_inserter(results.fits));

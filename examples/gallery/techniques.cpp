@@ -107,17 +107,20 @@ CascadeOptions<double> cascade_options(Input const& in, CascadeFit fit) {
     return options;
 }
 
-void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
-    set.frame.choice = choice;
-    CascadeOptions<double> options = cascade_options(in, fit);
-    options.lambda = lambda;
-    Cascades<double> const fitted = fit_cascades(in.seen, in.light, in.casters, in.receivers, options);
+void add(MapSet& set, Input const& in, Cascades<double> const& fitted) {
     note(set, fitted.faults);
     for (Cascade<double> const& cascade : fitted) {
         add(set, in, cascade.map, cascade.range);
         set.splits.push_back(cascade.range.end);
     }
     if (fitted.count > 0) set.splits.insert(set.splits.begin(), in.seen.z_near);
+}
+
+void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
+    set.frame.choice = choice;
+    CascadeOptions<double> options = cascade_options(in, fit);
+    options.lambda = lambda;
+    add(set, in, fit_cascades(in.seen, in.light, in.casters, in.receivers, options));
 }
 
 ShadowMap<double> standard_map(Input const& in) {
@@ -197,7 +200,7 @@ constexpr ClipSpace sampling_clip = reversed(clip);
 
 // In float throughout, so that the device's own fit can be held against it bit for bit. Every split keeps its place,
 // seen or not.
-void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device) {
+void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device, bool still) {
     ViewVolume<float> const camera = sampling_eye(in.view, in.extent);
     Light<float> const light = directional(glm::vec3(in.view.light_travel));
     float const shadow_distance = float(in.view.shadow_distance);
@@ -209,6 +212,7 @@ void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_devic
     options.map_size = in.map_size;
     options.margin_texels = float(margin_texels);
     options.clip = clip;
+    options.still = still;
 
     DepthCode<float> const code = depth_code(camera, sampling_clip);
     SampleDepths<float> depths = no_depths(camera.z_near, shadow_distance);
@@ -256,6 +260,7 @@ struct Entry {
     Technique technique;
     bool quick;  // also in quick runs
     std::function<void(MapSet&, Input const&)> make;
+    bool shown = true;  // false: of the flight alone
 };
 
 std::vector<Entry> const& entries() {
@@ -270,8 +275,8 @@ std::vector<Entry> const& entries() {
         return [=](MapSet& set, Input const& in) { add(set, in, make(in), whole(in)); };
     };
     auto const sdsm = "Lauritzen, Salvi, Lefohn, I3D 2011";
-    auto const sampled = [](SampleSplits kind, bool on_device) {
-        return [=](MapSet& set, Input const& in) { sampled_maps(set, in, kind, on_device); };
+    auto const sampled = [](SampleSplits kind, bool on_device, bool still = false) {
+        return [=](MapSet& set, Input const& in) { sampled_maps(set, in, kind, on_device, still); };
     };
     static std::vector<Entry> const all = {
         {{"uniform-1", "One uniform map", "Williams 1978", 1024, 1, true}, true, single(standard_map)},
@@ -302,6 +307,10 @@ std::vector<Entry> const& entries() {
         {{"sdsm-gpu", "The same, fitted on the GPU and used there", sdsm, 1024, 4, false, true},
          true,
          sampled(SampleSplits::adaptive, true)},
+        {{"sdsm-still", "The same, still", sdsm, 1024, 4, false, true},
+         false,
+         sampled(SampleSplits::adaptive, false, true),
+         false},
         {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false},
          true,
          single(warped_map)},
@@ -324,7 +333,7 @@ std::vector<Entry> const& entries() {
 std::vector<Technique> techniques(bool quick) {
     std::vector<Technique> list;
     for (Entry const& entry : entries())
-        if (entry.quick || !quick) list.push_back(entry.technique);
+        if (entry.shown && (entry.quick || !quick)) list.push_back(entry.technique);
     return list;
 }
 
@@ -347,29 +356,67 @@ backend::FitPass eye_depth_pass(View const& view, backend::Extent extent) {
     return {extent, clip_from_world(sampling_eye(view, extent), sampling_clip), {}, {}, 0};
 }
 
-MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent,
-           backend::Image<float> const& eye_depth) {
-    MapSet set;
-    set.map_size = technique.map_size;
-    set.frame = unshadowed(view, extent);
-    set.frame.map_size = float(technique.map_size);
-    set.frame.choice = MapChoice::by_map;
+namespace {
+
+Input input_of(Scene const& scene, View const& view, backend::Extent extent, int map_size,
+               backend::Image<float> const& eye_depth) {
     View3 const eye = eye_of(view, extent);
     View3 seen = eye;
     seen.z_far = view.shadow_distance;
-    Input const in{scene,
-                   eye,
-                   seen,
-                   light_of(view),
-                   box_of_all(scene, &backend::Object::casts),
-                   box_of_all(scene, &backend::Object::receives),
-                   technique.map_size,
-                   view,
-                   extent,
-                   eye_depth};
+    return {scene,
+            eye,
+            seen,
+            light_of(view),
+            box_of_all(scene, &backend::Object::casts),
+            box_of_all(scene, &backend::Object::receives),
+            map_size,
+            view,
+            extent,
+            eye_depth};
+}
+
+MapSet no_maps(View const& view, backend::Extent extent, int map_size) {
+    MapSet set;
+    set.map_size = map_size;
+    set.frame = unshadowed(view, extent);
+    set.frame.map_size = float(map_size);
+    set.frame.choice = MapChoice::by_map;
+    return set;
+}
+
+}  // namespace
+
+MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent,
+           backend::Image<float> const& eye_depth) {
+    MapSet set = no_maps(view, extent, technique.map_size);
+    Input const in = input_of(scene, view, extent, technique.map_size, eye_depth);
     for (Entry const& entry : entries())
         if (entry.technique.id == technique.id) entry.make(set, in);
     return set;
+}
+
+MapSet fit_cascade_maps(Scene const& scene, View const& view, backend::Extent extent, CascadeOptions<double> options,
+                        Cascades<double>& last) {
+    MapSet set = no_maps(view, extent, options.map_size);
+    backend::Image<float> const no_depth;
+    Input const in = input_of(scene, view, extent, options.map_size, no_depth);
+    options.filter_radius = filter_radius;
+    options.clip = clip;
+    last = fit_cascades(in.seen, in.light, in.casters, in.receivers, options, &last);
+    add(set, in, last);
+    return set;
+}
+
+CascadeOptions<double> choose_cascades(Scene const& scene, View const& view, backend::Extent extent,
+                                       std::span<SurfacePoint<double> const> samples,
+                                       CascadeOptions<double> const& options, ChoiceLimits<double> const& limits) {
+    backend::Image<float> const no_depth;
+    Input const in = input_of(scene, view, extent, options.map_size, no_depth);
+    CascadeOptions<double> given = options;
+    given.filter_radius = filter_radius;
+    given.clip = clip;
+    return choose(in.seen, in.light, in.casters, in.receivers, samples.data(), int(samples.size()), given, limits)
+        .options;
 }
 
 SplitObjects objects_in_splits(MapSet const& set, Scene const& scene, View const& view, backend::Extent extent) {

@@ -38,6 +38,13 @@ Results good() {
     fit.pixels = 200000;
     fit.unlike_pixels = 2;
     results.fits = {fit};
+    FlightRecord stable{"town", "street", "stable", "Stable"};
+    stable.stable = true;
+    stable.decisions = 200000;
+    stable.flips = 20;
+    FlightRecord tight{"town", "street", "tight", "Tight"};
+    tight.decisions = tight.flips = 200000;
+    results.flights = {stable, tight};
     return results;
 }
 
@@ -65,6 +72,7 @@ TEST(Promises, OneThatIsBrokenIsOneSentenceThatSaysWhereAndHowMany) {
          "town, vulkan, instances: 10 triangles more or fewer reached the clipper than objects cast into maps"},
         {[](Results& r) { r.ways[3].unlike_off_edges = 1; },
          "town, vulkan, split by split: 1 pixels off edges are unlike those of all maps at once"},
+        {[](Results& r) { r.flights[0].flips = 21; }, "town, stable under way: 21 of 200000 decisions flip"},
         {[](Results& r) { r.fits[0].unlike_maps = 1; },
          "town, vulkan, fitted on the device: 1 maps are not those of the C++"},
         {[](Results& r) { r.fits[0].unlike_texels = 1; },

@@ -111,3 +111,25 @@ function parityTable() {
     element("thead", {}, element("tr", {}, ...columns.map(([title], i) => element("th", { scope: "col", class: i < 2 ? "left" : "" }, title)))),
     element("tbody", {}, ...parity.map(p => element("tr", {}, ...columns.map(([, show], i) => element("td", { class: i < 2 ? "left" : "" }, show(p)))))));
 }
+
+// The first view of each scene as every driver drew it.
+function besidePictures() {
+  return scenes.flatMap(s => data.shown_on_every_driver.flatMap(id => machine.backends
+    .filter(b => matching({ scene: s.name, view: s.views[0].name, technique: id, backend: b.name }).length)
+    .map((b, i) => ({ scene: s, id, driver: b.name, text: `${word(s.name)}, ${technique(id).title}, ${b.name}`,
+      source: `${folder(s.name, s.views[0].name)}${id}-picture${i ? "-" + b.name : ""}.png` }))));
+}
+
+function beside() {
+  if (machine.backends.length < 2) return;
+  const all = besidePictures();
+  for (const s of scenes)
+    for (const id of data.shown_on_every_driver) {
+      const mine = all.filter(p => p.scene === s && p.id === id);
+      if (mine.length) byId("beside").append(element("h4", {}, `${word(s.name)}: ${technique(id).title}`),
+        element("div", { class: "beside", style: `--count:${mine.length}` }, ...mine.map(p => element("figure", {},
+          element("button", { type: "button", class: "frame", "aria-label": `Enlarge. ${p.text}`, onclick: () => zoom(p.source, p.text) },
+            element("img", { src: p.source, alt: p.text })),
+          element("figcaption", {}, p.driver)))));
+    }
+}
