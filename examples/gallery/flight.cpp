@@ -173,6 +173,7 @@ std::vector<Policy> policies(backend::Backend& backend, backend::Scene const& sc
             cascades("focus", "Four focused maps", with(CascadeFit::focus)),
             cascades("warped", "Four warped maps", with(CascadeFit::warped)),
             technique("vdsm-fallback", "View-dependent map, uniform map behind it", 2, false),
+            technique("vdsm-chosen", "View-dependent map on a chosen plane, uniform behind", 2, true),
             technique("sdsm", "Four maps fitted to samples", 4, true),
             technique("sdsm-still", "The same, texels of eight sizes an octave", 4, true),
             cascades("chosen-still", "Chosen, nothing may move", chosen(Motion::still)),
