@@ -51,6 +51,25 @@ template <class T>
     return value < 0x1p60L ? 0 : ~std::uint64_t(0);
 }
 
+// The top bit is set where a value is not from `lo` to `hi`, lo > 0; likewise by its bits.
+[[nodiscard]] inline std::uint32_t beyond(float value, float lo, float hi) noexcept {
+    std::uint32_t bits, least, most;
+    std::memcpy(&bits, &value, sizeof bits);
+    std::memcpy(&least, &lo, sizeof least);
+    std::memcpy(&most, &hi, sizeof most);
+    return bits | (bits - least) | (most - bits);
+}
+[[nodiscard]] inline std::uint64_t beyond(double value, double lo, double hi) noexcept {
+    std::uint64_t bits, least, most;
+    std::memcpy(&bits, &value, sizeof bits);
+    std::memcpy(&least, &lo, sizeof least);
+    std::memcpy(&most, &hi, sizeof most);
+    return bits | (bits - least) | (most - bits);
+}
+[[nodiscard]] inline std::uint64_t beyond(long double value, long double lo, long double hi) noexcept {
+    return value >= lo && value <= hi ? 0 : ~std::uint64_t(0);
+}
+
 // Numbers that are not negative by their bits: these order as the numbers do, and above all of them come infinity and
 // NaN. Negative numbers come below all others, but for -0, which is 0.
 [[nodiscard]] inline std::int32_t order_of(float value) noexcept {
