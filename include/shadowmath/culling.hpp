@@ -227,7 +227,7 @@ template <class T>
 
 namespace detail {
 
-inline constexpr int boxes_at_once = 128;
+inline constexpr int boxes_at_once = 64;
 
 // What the reach of a box along a normal must grow by, as a part of the size of its largest coordinate: of the three
 // products each may be off by the 10 epsilon of box_slack.
@@ -260,7 +260,6 @@ struct MaskBlock {
     [[gnu::always_inline]] inline void operator()() const noexcept {
         constexpr int n = boxes_at_once;
         T grown[n];
-        std::uint32_t mask[n];
         std::uint32_t any_odd = 0;
         decltype(beyond_reach(T(0))) beyond = 0;
         auto const less = [](T a, T b) { return a < b ? a : b; };
@@ -275,23 +274,49 @@ struct MaskBlock {
             any_odd |= full ? 0u : ~0u;
             beyond |= beyond_reach(largest);
             grown[i] = reach_slack<T> * largest;
-            mask[i] = 0;
         }
         odd = any_odd != 0 || beyond >> (8 * sizeof beyond - 1) != 0;
+        if (maps.bundle_count == 0) std::memset(masks, 0, n * sizeof *masks);
         for (int b = 0; b < maps.bundle_count; ++b) {
             typename CasterMaps<T>::Bundle const& bundle = maps.bundle[b];
+            // NOTE: side by side, five sides want more registers than there are.
             std::uint32_t const(&bit)[4] = bits[b];
             Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
             Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
             Side const last = side_of(bundle.normal[4]);
+            T const(&from_left)[4] = bundle.least[0], (&from_right)[4] = bundle.least[1];
+            T const(&from_bottom)[4] = bundle.least[2], (&from_top)[4] = bundle.least[3];
+            T const(&from_last)[4] = bundle.least[4];
+            std::uint32_t in_0[n], in_1[n], in_2[n], in_3[n];  // all ones, or zero
             for (int i = 0; i < n; ++i) {
-                Reaches<T> const reach = {left(i) + grown[i], right(i) + grown[i], bottom(i) + grown[i],
-                                          top(i) + grown[i], last(i) + grown[i]};
-                mask[i] |= bit_if_inside<T>(bundle, reach, 0, bit[0]) | bit_if_inside<T>(bundle, reach, 1, bit[1]) |
-                           bit_if_inside<T>(bundle, reach, 2, bit[2]) | bit_if_inside<T>(bundle, reach, 3, bit[3]);
+                T const a = left(i) + grown[i], c = right(i) + grown[i];
+                in_0[i] = ((a >= from_left[0]) & (c >= from_right[0])) ? ~0u : 0u;
+                in_1[i] = ((a >= from_left[1]) & (c >= from_right[1])) ? ~0u : 0u;
+                in_2[i] = ((a >= from_left[2]) & (c >= from_right[2])) ? ~0u : 0u;
+                in_3[i] = ((a >= from_left[3]) & (c >= from_right[3])) ? ~0u : 0u;
             }
+            for (int i = 0; i < n; ++i) {
+                T const a = bottom(i) + grown[i], c = top(i) + grown[i];
+                in_0[i] &= ((a >= from_bottom[0]) & (c >= from_top[0])) ? ~0u : 0u;
+                in_1[i] &= ((a >= from_bottom[1]) & (c >= from_top[1])) ? ~0u : 0u;
+                in_2[i] &= ((a >= from_bottom[2]) & (c >= from_top[2])) ? ~0u : 0u;
+                in_3[i] &= ((a >= from_bottom[3]) & (c >= from_top[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = last(i) + grown[i];
+                in_0[i] &= a >= from_last[0] ? ~0u : 0u;
+                in_1[i] &= a >= from_last[1] ? ~0u : 0u;
+                in_2[i] &= a >= from_last[2] ? ~0u : 0u;
+                in_3[i] &= a >= from_last[3] ? ~0u : 0u;
+            }
+            auto const bits_of = [&](int i) {
+                return (in_0[i] & bit[0]) | (in_1[i] & bit[1]) | (in_2[i] & bit[2]) | (in_3[i] & bit[3]);
+            };
+            if (b == 0)
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(bits_of(i));
+            else
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(masks[i] | bits_of(i));
         }
-        for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i]);
     }
 };
 
