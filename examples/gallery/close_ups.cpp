@@ -3,7 +3,7 @@
 
 #include "examples/gallery/close_up_maps.hpp"
 #include "examples/gallery/close_up_truth.hpp"
-#include "examples/gallery/png.hpp"
+#include "examples/png/png.hpp"
 
 #include <algorithm>
 #include <bit>
