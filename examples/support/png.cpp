@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
+<<<<<<<< HEAD:examples/support/png.cpp
 #include "examples/support/png.hpp"
+========
+#include "examples/png/png.hpp"
+>>>>>>>> doctor:examples/png/png.cpp
 
 #include <png.h>
 
 #include <stdexcept>
 
+<<<<<<<< HEAD:examples/support/png.cpp
 namespace shadowmath::example {
+========
+namespace shadowmath::examples {
+>>>>>>>> doctor:examples/png/png.cpp
 namespace {
 
 void write(std::filesystem::path const& path, backend::Extent extent, std::uint32_t format, int channels,
@@ -35,4 +43,8 @@ void write_png(std::filesystem::path const& path, IndexedPicture const& picture)
           picture.palette.data(), picture.palette.size());
 }
 
+<<<<<<<< HEAD:examples/support/png.cpp
 }  // namespace shadowmath::example
+========
+}  // namespace shadowmath::examples
+>>>>>>>> doctor:examples/png/png.cpp

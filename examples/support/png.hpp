@@ -10,7 +10,11 @@
 #include <filesystem>
 #include <vector>
 
+<<<<<<<< HEAD:examples/support/png.hpp
 namespace shadowmath::example {
+========
+namespace shadowmath::examples {
+>>>>>>>> doctor:examples/png/png.hpp
 
 using Colour = std::array<std::uint8_t, 3>;  // sRGB
 
@@ -24,4 +28,8 @@ struct IndexedPicture {
 void write_png(std::filesystem::path const& path, backend::Image<backend::Rgba8> const& picture);  // alpha is dropped
 void write_png(std::filesystem::path const& path, IndexedPicture const& picture);
 
+<<<<<<<< HEAD:examples/support/png.hpp
 }  // namespace shadowmath::example
+========
+}  // namespace shadowmath::examples
+>>>>>>>> doctor:examples/png/png.hpp
