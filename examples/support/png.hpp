@@ -10,13 +10,12 @@
 #include <filesystem>
 #include <vector>
 
-<<<<<<<< HEAD:examples/support/png.hpp
-namespace shadowmath::example {
-========
-namespace shadowmath::examples {
->>>>>>>> doctor:examples/png/png.hpp
+< < < < < < < <
+    HEAD : examples / support / png.hpp namespace shadowmath::example{ == == == == namespace shadowmath::examples{
+        >>>>>>>> doctor : examples / png /
+                     png.hpp
 
-using Colour = std::array<std::uint8_t, 3>;  // sRGB
+                     using Colour = std::array<std::uint8_t, 3>;  // sRGB
 
 // A picture of at most 256 colours: an order of magnitude smaller on disk than one of three channels.
 struct IndexedPicture {
@@ -28,8 +27,8 @@ struct IndexedPicture {
 void write_png(std::filesystem::path const& path, backend::Image<backend::Rgba8> const& picture);  // alpha is dropped
 void write_png(std::filesystem::path const& path, IndexedPicture const& picture);
 
-<<<<<<<< HEAD:examples/support/png.hpp
+< < < < < < < < HEAD : examples / support / png.hpp
 }  // namespace shadowmath::example
-========
+== == == ==
 }  // namespace shadowmath::examples
->>>>>>>> doctor:examples/png/png.hpp
+>>>>>>>> doctor : examples / png / png.hpp

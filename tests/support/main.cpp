@@ -16,10 +16,12 @@ class Flags : public ::testing::EmptyTestEventListener {
     void OnTestStart(::testing::TestInfo const&) override { std::feclearexcept(FE_ALL_EXCEPT); }
     void OnTestEnd(::testing::TestInfo const& t) override {
         int const raised = std::fetestexcept(shadowmath::test::watched_flags);
-        if (raised) std::printf("FLAGS %s.%s%s%s%s\n", t.test_suite_name(), t.name(), raised & FE_INVALID ? " invalid" : "", raised & FE_DIVBYZERO ? " div" : "", raised & FE_OVERFLOW ? " over" : "");
+        if (raised)
+            std::printf("FLAGS %s.%s%s%s%s\n", t.test_suite_name(), t.name(), raised & FE_INVALID ? " invalid" : "",
+                        raised & FE_DIVBYZERO ? " div" : "", raised & FE_OVERFLOW ? " over" : "");
     }
 };
-}
+}  // namespace
 
 int main(int argc, char** argv) {
     setenv("RC_PARAMS", "seed=20021201 max_success=200", 0);

@@ -20,7 +20,8 @@ struct Cut {
 template <class T>
 Cut<T> cut_body(Case& c) {
     Aabb<T> const start = small_box<T>(c, T(10));
-    Cut<T> cut{convex_body(start), in_box(c, start), T(20 * 18) * std::numeric_limits<T>::epsilon() * T(35), c.below(10)};
+    Cut<T> cut{convex_body(start), in_box(c, start), T(20 * 18) * std::numeric_limits<T>::epsilon() * T(35),
+               c.below(10)};
     for (int i = 0; i < cut.cuts; ++i) {
         Vec3<T> const normal = direction<T>(c);
         Vec4<T> const half_space(normal, c.uniform<T>(T(0.01), T(5)) - glm::dot(normal, cut.kept));
