@@ -1568,8 +1568,8 @@ template <class T>
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or a
-// side crossed.
+// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or
+// a side crossed.
 // NOTE: not inlined, it would hand over its twelve registers by way of memory.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
@@ -5216,8 +5216,8 @@ template <class T>
 // (view_dependent_map), in this order; behind them stands a map that serves what none of them does, cascades or one
 // uniform map. by_footprint chooses between them point by point.
 //
-// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of the
-// samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
+// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of
+// the samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
 // serves well is then taken out, and the next one is chosen for the rest, as long as that is worth a map.
 //
 // Source: the thesis (Kwon 2002) names several planes as future work; Chong and Gortler 2004 draw floor and wall by two
@@ -5878,10 +5878,10 @@ template <class T>
 }
 
 // The same for any map, warped and view-dependent ones included, whose texels differ from place to place: the least
-// metres along the unit `normal` with which the plane through `point` does not shadow itself in this map. Exact for suns:
-// on a plane stored depth is linear in texels, and w is linear in the metres. Of a spot to first order in the offset over
-// the distance to it. At most `most_metres`, which is also its value where the map is edge-on to the plane, and where a
-// warp's own w runs away from the offset; 0 where the plane faces away, or the map does not hold the point.
+// metres along the unit `normal` with which the plane through `point` does not shadow itself in this map. Exact for
+// suns: on a plane stored depth is linear in texels, and w is linear in the metres. Of a spot to first order in the
+// offset over the distance to it. At most `most_metres`, which is also its value where the map is edge-on to the plane,
+// and where a warp's own w runs away from the offset; 0 where the plane faces away, or the map does not hold the point.
 template <class T>
 [[nodiscard]] inline T normal_offset_at(ShadowMap<T> const& map, Light<T> const& light, int map_size, int filter_radius,
                                         Vec3<T> const& point, Vec3<T> const& normal, T most_metres) noexcept {

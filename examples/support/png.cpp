@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: MIT
-<<<<<<<<HEAD : examples / support / png.cpp
 #include "examples/support/png.hpp"
-        == == == ==
-#include "examples/png/png.hpp"
-        >>>>>>>> doctor : examples /
-                          png / png.cpp
 
 #include <png.h>
 
 #include <stdexcept>
 
-    < < < < < < < <
-    HEAD : examples / support / png.cpp namespace shadowmath::example{ == == == == namespace shadowmath::examples{
-        >>>>>>>> doctor : examples / png /
-                     png.cpp namespace {
+namespace shadowmath::example {
+namespace {
 
-                         void write(std::filesystem::path const& path, backend::Extent extent, std::uint32_t format,
-                                    int channels, std::uint8_t const* pixels, Colour const* palette,
-                                    std::size_t palette_size){png_image image{};
-image.version = PNG_IMAGE_VERSION;
-image.width = static_cast<png_uint_32>(extent.width);
-image.height = static_cast<png_uint_32>(extent.height);
-image.format = format;
-image.colormap_entries = static_cast<png_uint_32>(palette_size);
-// A negative stride is libpng's word for "the bottom row comes first".
-if (png_image_write_to_file(&image, path.c_str(), 0, pixels, -extent.width* channels, palette) == 0)
-    throw std::runtime_error(path.string() + ": " + image.message);
+void write(std::filesystem::path const& path, backend::Extent extent, std::uint32_t format, int channels,
+           std::uint8_t const* pixels, Colour const* palette, std::size_t palette_size) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(extent.width);
+    image.height = static_cast<png_uint_32>(extent.height);
+    image.format = format;
+    image.colormap_entries = static_cast<png_uint_32>(palette_size);
+    // A negative stride is libpng's word for "the bottom row comes first".
+    if (png_image_write_to_file(&image, path.c_str(), 0, pixels, -extent.width * channels, palette) == 0)
+        throw std::runtime_error(path.string() + ": " + image.message);
 }
 
 }  // namespace
@@ -42,8 +35,4 @@ void write_png(std::filesystem::path const& path, IndexedPicture const& picture)
           picture.palette.data(), picture.palette.size());
 }
 
-< < < < < < < < HEAD : examples / support / png.cpp
 }  // namespace shadowmath::example
-== == == ==
-}  // namespace shadowmath::examples
->>>>>>>> doctor : examples / png / png.cpp

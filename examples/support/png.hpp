@@ -10,12 +10,9 @@
 #include <filesystem>
 #include <vector>
 
-< < < < < < < <
-    HEAD : examples / support / png.hpp namespace shadowmath::example{ == == == == namespace shadowmath::examples{
-        >>>>>>>> doctor : examples / png /
-                     png.hpp
+namespace shadowmath::example {
 
-                     using Colour = std::array<std::uint8_t, 3>;  // sRGB
+using Colour = std::array<std::uint8_t, 3>;  // sRGB
 
 // A picture of at most 256 colours: an order of magnitude smaller on disk than one of three channels.
 struct IndexedPicture {
@@ -27,8 +24,4 @@ struct IndexedPicture {
 void write_png(std::filesystem::path const& path, backend::Image<backend::Rgba8> const& picture);  // alpha is dropped
 void write_png(std::filesystem::path const& path, IndexedPicture const& picture);
 
-< < < < < < < < HEAD : examples / support / png.hpp
 }  // namespace shadowmath::example
-== == == ==
-}  // namespace shadowmath::examples
->>>>>>>> doctor : examples / png / png.hpp

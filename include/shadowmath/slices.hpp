@@ -50,8 +50,8 @@ template <class T>
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or a
-// side crossed.
+// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or
+// a side crossed.
 // NOTE: not inlined, it would hand over its twelve registers by way of memory.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
