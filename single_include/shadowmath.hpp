@@ -10045,7 +10045,6 @@ static_assert(sizeof(GpuIrregular) == 336);
 //
 // Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
 
-
 // ======== shadowmath/slices_of_views.hpp ========
 //
 // The slices of thousands of views at once: what fit_slice_boxes gives for each, a third as dear again. For simulators
