@@ -30,7 +30,7 @@ int examine(Arguments const& arguments) {
     std::vector<Advice> others;
     for (auto const fit : {shadowmath::CascadeFit::stable, shadowmath::CascadeFit::rectangle})
         if (auto const other = advice(read, scene, sight, fit)) others.push_back(*other);
-    if (!arguments.picture.empty()) shadowmath::examples::write_png(arguments.picture, picture(read, sight, diagnosis));
+    if (!arguments.picture.empty()) shadowmath::example::write_png(arguments.picture, picture(read, sight, diagnosis));
     std::cout << report(read, sight, diagnosis, others);
     if (!arguments.picture.empty()) std::cout << "\nWrote " << arguments.picture.string() << ": " << legend() << '\n';
     return diagnosis.faults() == 0 ? 0 : 1;

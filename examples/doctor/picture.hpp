@@ -5,7 +5,7 @@
 #pragma once
 
 #include "examples/doctor/diagnosis.hpp"
-#include "examples/png/png.hpp"
+#include "examples/support/png.hpp"
 
 namespace shadowmath::doctor {
 

@@ -155,10 +155,10 @@ template <class T>
 }
 
 // The same for any map, warped and view-dependent ones included, whose texels differ from place to place: the least
-// metres along the unit `normal` with which the plane through `point` does not shadow itself in this map. Exact for suns:
-// on a plane stored depth is linear in texels, and w is linear in the metres. Of a spot to first order in the offset over
-// the distance to it. At most `most_metres`, which is also its value where the map is edge-on to the plane, and where a
-// warp's own w runs away from the offset; 0 where the plane faces away, or the map does not hold the point.
+// metres along the unit `normal` with which the plane through `point` does not shadow itself in this map. Exact for
+// suns: on a plane stored depth is linear in texels, and w is linear in the metres. Of a spot to first order in the
+// offset over the distance to it. At most `most_metres`, which is also its value where the map is edge-on to the plane,
+// and where a warp's own w runs away from the offset; 0 where the plane faces away, or the map does not hold the point.
 template <class T>
 [[nodiscard]] inline T normal_offset_at(ShadowMap<T> const& map, Light<T> const& light, int map_size, int filter_radius,
                                         Vec3<T> const& point, Vec3<T> const& normal, T most_metres) noexcept {

@@ -4,8 +4,8 @@
 // (view_dependent_map), in this order; behind them stands a map that serves what none of them does, cascades or one
 // uniform map. by_footprint chooses between them point by point.
 //
-// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of the
-// samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
+// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of
+// the samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
 // serves well is then taken out, and the next one is chosen for the rest, as long as that is worth a map.
 //
 // Source: the thesis (Kwon 2002) names several planes as future work; Chong and Gortler 2004 draw floor and wall by two

@@ -78,8 +78,8 @@ TYPED_TEST(WarpProperty, IsFiniteAndCalmForAnyInput) {
     }));
 }
 
-// The conversions: of any distance of the centre behind the near end, by strength, by eta, by the focus of the trapezoid
-// and by the growth of w. Each gives back the distance that it was made from.
+// The conversions: of any distance of the centre behind the near end, by strength, by eta, by the focus of the
+// trapezoid and by the growth of w. Each gives back the distance that it was made from.
 TEST(WarpConversions, AgreeOnOneCentre) {
     EXPECT_TRUE(rc::check([] {
         auto const z_near = *log_uniform<double>(0.01, 100.0);
@@ -95,7 +95,8 @@ TEST(WarpConversions, AgreeOnOneCentre) {
         RC_ASSERT(is(lloyd_inverse_centre(1.0, z_near, length, sine), most));
         RC_ASSERT(lloyd_inverse_centre(-1.0, z_near, length, sine) <= 1e-12 * most);
         double const a = 1 / (most * share);
-        // 80 % of the map up to a focus: y / (y + a) of its whole at `length`, so 0.8 = y (length + a) / (length (y + a)).
+        // 80 % of the map up to a focus: y / (y + a) of its whole at `length`, so 0.8 = y (length + a) / (length (y +
+        // a)).
         double const focus = 0.8 * length * a / (length + a - 0.8 * length);
         RC_ASSERT(is(trapezoid_inverse_centre(length, focus), 1 / a));
         // w = 1 + g y from the eye is 1 + (y - y_near) / a from the near end, over its value there.
