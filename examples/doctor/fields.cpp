@@ -163,7 +163,7 @@ void Fields::done() {
             std::ranges::min_element(asked_, {}, [&](std::string const& known) { return letters_between(known, key); });
         if (nearest != asked_.end() && letters_between(*nearest, key) <= 3)
             line += "; did you mean \"" + *nearest + "\"?";
-        complaints_.unknown_keys.push_back(line);
+        complaints_.unknown_keys.push_back(one_line(line));
     }
 }
 

@@ -124,8 +124,14 @@ Node const* Node::find(std::string_view key) const {
     return at == keys.end() ? nullptr : &items[static_cast<std::size_t>(at - keys.begin())];
 }
 
+std::string one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, '?');
+    return text;
+}
+
 CaseError::CaseError(std::string const& file, int line, std::string const& what)
-    : std::runtime_error(file + ":" + std::to_string(line) + ": " + what) {}
+    : std::runtime_error(file + ":" + std::to_string(line) + ": " + one_line(what)) {}
 
 Node parse_json(std::string_view text, std::string const& file) {
     if (text.size() > largest_file)

@@ -27,6 +27,9 @@ struct Node {
     [[nodiscard]] Node const* find(std::string_view key) const;
 };
 
+// Without what a terminal would take for a command or a new line.
+[[nodiscard]] std::string one_line(std::string text);
+
 // One line, "FILE:LINE: what was expected".
 struct CaseError : std::runtime_error {
     CaseError(std::string const& file, int line, std::string const& what);

@@ -109,9 +109,19 @@ TEST(DoctorCases, AreWhatTheRecipesMake) {
     }
 }
 
+TEST(DoctorCases, ThePageExplainsEveryWordThatTheDoctorUses) {
+    std::string const page = text_of(DOCTOR_PAGE);
+    for (int i = 0; i <= static_cast<int>(Ill::bias_large); ++i)
+        EXPECT_NE(page.find("| `" + std::string(id(static_cast<Ill>(i))) + "`"), std::string::npos)
+            << id(static_cast<Ill>(i));
+    for (auto const& [file, text] : sample_cases())
+        EXPECT_TRUE(file == "yard.obj" || page.find("| `" + file + "`") != std::string::npos) << file;
+}
+
 TEST(DoctorCases, SunThatMovedIsFoundByItsAngle) {
     Examined const patient = examined(read_case(folder / "other_light.json"));
     EXPECT_EQ(maps_with(patient.diagnosis, Ill::other_light), (std::set<int>{0, 1, 2, 3}));
+    ASSERT_FALSE(patient.diagnosis.findings.empty());
     EXPECT_NE(patient.diagnosis.findings.front().what.find("10.5 degrees apart"), std::string::npos)
         << patient.diagnosis.findings.front().what;
 }

@@ -93,6 +93,7 @@ TEST(DoctorMalformed, WrongTypesAreSaidWithWhatWasExpected) {
                      "clip: expected one of \"opengl\" \"opengl_zero_to_one\" "
                      "\"vulkan\" \"d3d\" \"metal\" \"webgpu\", found \"volcano\"");
     expect_complaint(with("\"vulkan\"", "null"), 3, "found null");
+    expect_complaint(with("\"vulkan\"", "\"a\\n\\u0000\\u001bb\""), 3, "found \"a???b\"");
     expect_complaint(with("[1920, 1080]", "[1920]"), 5, "picture: expected a list of 2 numbers, found a list of 1");
     expect_complaint(with("[1920, 1080]", "[1920, -1]"), 5, "width and height in pixels");
     expect_complaint(with("[1920, 1080]", "[1920, \"x\"]"), 5, "expected numbers");
