@@ -55,6 +55,8 @@ void try_bodies(Case& c) {
     int const size = 64 + c.below(8000);
     LightBox<T> const box =
         c.call([&] { return fit_rectangle(basis, cut.body, size, margin, direction<T>(c), c.number<T>()); });
+    c.hash(&box.lo.x, 2);
+    c.hash(&box.hi.x, 2);
     c.require(laws::is_a_box(box), "a rectangle has an extent");
     c.require(laws::is_rolled(box.basis, basis), "a rectangle is turned about the light");
     c.require(laws::holds_body_and_margin(box, cut.body, size, margin), "a rectangle holds its body and margin");

@@ -80,6 +80,7 @@ void try_tracing(Case& c) {
     }
     using Plain = PlainLanes<T>;
     test::Traced const whole = test::traced<Plain>(picture, casters, light, grid, map_size);
+    c.hash(whole.masks.data(), static_cast<int>(whole.masks.size()));
     c.require(!whole.faults.any(), "a good scene is traced without fault");
     c.require(laws::agrees_with_segments(picture, whole.masks, casters, light, grid), "masks agree with segments");
     if (c.one_in(2)) {
