@@ -82,9 +82,9 @@ public:
                 {"lispsm", "LiSPSM", 1},
                 {"plane-optimal", "Plane optimal", 1},
                 {"focus", "shadowmath, focused map", 1, true, "focused"},
-                {"warped", "shadowmath, warped map", 1, true, "lispsm"},
-                {"plane", "shadowmath, view-dependent map", 1, true, "plane-optimal"},
-                {"plane-2", "shadowmath, view-dependent map, focused map behind it", 2, true}};
+                {"warped", "shadowmath, warped map", 1, true, "lispsm", 0.5f},
+                {"plane", "shadowmath, view-dependent map", 1, true, "plane-optimal", 0.5f},
+                {"plane-2", "shadowmath, view-dependent map, focused map behind it", 2, true, {}, 0.5f}};
     }
 
     void load(backend::Scene const& scene) override {

@@ -99,11 +99,12 @@ inline Ogre::Matrix4 matrix(glm::mat4 const& from) {
     return to;
 }
 
-// The whole matrix as a projection: OGRE multiplies it with the view's, and culls casters by the product. A map that is
-// not visible sees nothing, and nothing is drawn into it.
-inline void aim(Ogre::Camera& shadow_camera, glm::mat4 const& clip_from_world) {
+// The whole matrix as a projection: OGRE multiplies it with the view's, and culls casters by the product. It inverts it
+// too, so a map that is not visible becomes a matrix that has an inverse, and looks at nothing, far from everything.
+inline void aim(Ogre::Camera& shadow_camera, shadowmath::ShadowMap<float> const& map) {
+    Ogre::Matrix4 const elsewhere(Ogre::Affine3::getTrans(1e7f, 0.0f, 0.0f));
     shadow_camera.setCustomViewMatrix(true, Ogre::Affine3::IDENTITY);
-    shadow_camera.setCustomProjectionMatrix(true, matrix(clip_from_world));
+    shadow_camera.setCustomProjectionMatrix(true, map.visible ? matrix(map.clip_from_world) : elsewhere);
 }
 
 }  // namespace to_ogre
@@ -129,7 +130,7 @@ public:
         if (iteration == 0) fit(*scene, *camera, *light);
         shadowmath::ShadowMap<float> map;
         if (int(iteration) < cascades_.count) map = cascades_.at[iteration].map;
-        to_ogre::aim(*shadow_camera, map.clip_from_world);
+        to_ogre::aim(*shadow_camera, map);
     }
 
 private:
@@ -165,14 +166,14 @@ public:
             options.map_size = map_size_;
             auto const map = shadowmath::view_dependent_map(view, source, plane_, bounds.casters, bounds.receivers,
                                                             options, shadowmath::gl_clip);
-            to_ogre::aim(*shadow_camera, map.clip_from_world);
+            to_ogre::aim(*shadow_camera, map);
         } else {
             shadowmath::CascadeOptions<float> options;
             options.count = 1;
             options.map_size = map_size_;
             options.fit = shadowmath::CascadeFit::focus;
             auto const fitted = shadowmath::fit_cascades(view, source, bounds.casters, bounds.receivers, options);
-            to_ogre::aim(*shadow_camera, fitted.at[0].map.clip_from_world);
+            to_ogre::aim(*shadow_camera, fitted.at[0].map);
         }
     }
 
