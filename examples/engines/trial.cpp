@@ -33,7 +33,9 @@ struct Options {
     std::vector<std::string> views;
     std::vector<std::string> set_ups;
     std::optional<float> slope_bias;
-    [[nodiscard]] backend::Extent extent() const { return quick ? backend::Extent{480, 270} : backend::Extent{960, 540}; }
+    [[nodiscard]] backend::Extent extent() const {
+        return quick ? backend::Extent{480, 270} : backend::Extent{960, 540};
+    }
 };
 
 bool wanted(std::vector<std::string> const& names, std::string const& name) {
@@ -52,9 +54,8 @@ std::vector<Stage> stages(Options const& options) {
     for (std::string const& name : options.scenes) {
         auto const size = options.quick ? scenes::SceneSize::small : scenes::SceneSize::medium;
         Stage stage{scenes::make_scene(name, size), {}};
-        std::erase_if(stage.named.views, [&](scenes::View const& view) {
-            return view.has_spot || !wanted(options.views, view.name);
-        });
+        std::erase_if(stage.named.views,
+                      [&](scenes::View const& view) { return view.has_spot || !wanted(options.views, view.name); });
         if (options.quick && stage.named.views.size() > 2) stage.named.views.resize(2);
         oracle::RayOracle const oracle(stage.named.scene);
         backend->upload(stage.named.scene);
@@ -133,7 +134,8 @@ void print_table(Engine const& engine, std::vector<SetUp> const& set_ups, std::v
     for (SetUp const& set_up : set_ups) {
         char const* const mark = set_up.ours ? "**" : "";
         std::printf("| %s%s%s | %d |", mark, set_up.title.c_str(), mark, set_up.maps);
-        for (std::string const& scene : options.scenes) std::printf(" %.2f |", 100.0 * mean_wrong(results, set_up.id, scene));
+        for (std::string const& scene : options.scenes)
+            std::printf(" %.2f |", 100.0 * mean_wrong(results, set_up.id, scene));
         std::printf(" %.2f | %.1f |\n", 100.0 * mean_wrong(results, set_up.id, {}), median_time(results, set_up.id));
     }
     std::printf("\n");
@@ -178,7 +180,8 @@ bool holds(SetUp const& set_up, std::vector<Result> const& results) {
         std::printf("%s: %s is wrong in %.3f %% of the pixels, %s in %.3f %%\n", good ? "ok" : "FAILED",
                     set_up.id.c_str(), 100.0 * wrong, set_up.rival.c_str(), 100.0 * theirs);
     } else {
-        std::printf("%s: %s is wrong in %.3f %% of the pixels\n", good ? "ok" : "FAILED", set_up.id.c_str(), 100.0 * wrong);
+        std::printf("%s: %s is wrong in %.3f %% of the pixels\n", good ? "ok" : "FAILED", set_up.id.c_str(),
+                    100.0 * wrong);
     }
     return good;
 }
@@ -226,12 +229,14 @@ int run_trial(int argc, char** argv, std::string const& engine, std::function<st
     options.out = fs::path("out") / "engines" / engine;
     CLI::App app{"Aims shadow cameras inside " + engine + ", with its own set-ups and with shadowmath"};
     app.add_flag("--quick", options.quick, "two views of two small scenes, in small pictures");
-    app.add_flag("--check", options.check, "fail unless shadowmath's set-ups are right, and no worse than their rivals");
+    app.add_flag("--check", options.check,
+                 "fail unless shadowmath's set-ups are right, and no worse than their rivals");
     app.add_option("--out", options.out, "folder of the pictures and results.json")->capture_default_str();
     app.add_option("--scene", options.scenes, "town, colonnade, forest; all, or the first two if --quick");
     app.add_option("--view", options.views, "by name; all");
     app.add_option("--set-up", options.set_ups, "by id; all");
-    app.add_option("--slope-bias", options.slope_bias, "of all casters, in place of the one that suits each set-up best");
+    app.add_option("--slope-bias", options.slope_bias,
+                   "of all casters, in place of the one that suits each set-up best");
     CLI11_PARSE(app, argc, argv);
     if (options.scenes.empty()) {
         for (auto const name : scenes::scene_names()) options.scenes.emplace_back(name);

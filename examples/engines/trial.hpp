@@ -28,8 +28,8 @@ struct SetUp {
     int maps = 1;       // of map_size squared
     bool ours = false;
     std::string rival{};  // of ours: the engine's own that --check holds it against; empty: none
-    // Of casters, as glPolygonOffset takes it, where the engine leaves it to the user: what suits the set-up better of 2
-    // and 1/2. (A warped map is steep wherever w changes, and the slope that hardware offsets by counts that too.)
+    // Of casters, as glPolygonOffset takes it, where the engine leaves it to the user: what suits the set-up better of
+    // 2 and 1/2. (A warped map is steep wherever w changes, and the slope that hardware offsets by counts that too.)
     float slope_bias = 2.0f;
 };
 

@@ -262,8 +262,8 @@ private:
         auto const pose = pose_looking(view.eye, view.forward, view.up);
         Ogre::SceneNode* const node = camera_->getParentSceneNode();
         node->setPosition(to_ogre_vector(pose.position));
-        node->setOrientation(Ogre::Quaternion(to_ogre_vector(pose.right), to_ogre_vector(pose.up),
-                                              to_ogre_vector(-pose.forward)));
+        node->setOrientation(
+            Ogre::Quaternion(to_ogre_vector(pose.right), to_ogre_vector(pose.up), to_ogre_vector(-pose.forward)));
         camera_->setFOVy(Ogre::Radian(float(view.fov_y_radians)));
         camera_->setAspectRatio(float(extent.width) / float(extent.height));
         camera_->setNearClipDistance(float(view.z_near));

@@ -53,13 +53,14 @@ inline shadowmath::ViewVolume<float> view(Ogre::Camera const& camera) {
     shadowmath::Pose<float> const pose{point(camera.getDerivedPosition()), point(camera.getDerivedRight()),
                                        point(camera.getDerivedUp()), point(camera.getDerivedDirection())};
     float const far_distance = camera.getFarClipDistance();  // OGRE's 0 is no end
-    return shadowmath::view_from_projection(pose, matrix(camera.getProjectionMatrix()), camera.getNearClipDistance(),
-                                            far_distance > 0.0f ? far_distance
-                                                                : std::numeric_limits<float>::infinity());
+    return shadowmath::view_from_projection(
+        pose, matrix(camera.getProjectionMatrix()), camera.getNearClipDistance(),
+        far_distance > 0.0f ? far_distance : std::numeric_limits<float>::infinity());
 }
 
 inline shadowmath::Light<float> light(Ogre::Light const& from) {
-    if (from.getType() == Ogre::Light::LT_DIRECTIONAL) return shadowmath::directional(point(from.getDerivedDirection()));
+    if (from.getType() == Ogre::Light::LT_DIRECTIONAL)
+        return shadowmath::directional(point(from.getDerivedDirection()));
     return shadowmath::spot(point(from.getDerivedPosition()), point(from.getDerivedDirection()),
                             0.5f * from.getSpotlightOuterAngle().valueRadians(), from.getAttenuationRange());
 }

@@ -70,8 +70,8 @@ public:
             geometry->setVertexArray(positions);
             geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
             geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
-            geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, object.index_count,
-                                                                scene.indices.data() + object.first_index));
+            geometry->addPrimitiveSet(
+                new osg::DrawElementsUInt(GL_TRIANGLES, object.index_count, scene.indices.data() + object.first_index));
             // What OpenSceneGraph would find is the box of all vertices.
             osg::BoundingBox const box(object.lo.x, object.lo.y, object.lo.z, object.hi.x, object.hi.y, object.hi.z);
             geometry->setInitialBound(box);
@@ -203,7 +203,8 @@ private:
             };
             auto const minimal = [&](auto* technique) {
                 technique->setMaxFarPlane(float(view.shadow_distance));
-                technique->setMinLightMargin(150.0f);  // metres toward the light in which casters count; it comes with 0
+                technique->setMinLightMargin(
+                    150.0f);  // metres toward the light in which casters count; it comes with 0
                 return standard(technique);
             };
             if (id.starts_with("pssm")) {
@@ -241,10 +242,11 @@ private:
             osg::ref_ptr<osg::Program> const program = new osg::Program;
             program->addShader(shader(osg::Shader::VERTEX, "receiver.vert"));
             program->addShader(shader(osg::Shader::FRAGMENT, "receiver.frag"));
-            state.setAttributeAndModes(program, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE |
-                                                    osg::StateAttribute::PROTECTED);
+            state.setAttributeAndModes(
+                program, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
             for (int i = 0; i < 4; ++i)
-                state.addUniform(new osg::Uniform(("map" + std::to_string(i)).c_str(), std::min(i, set_up.maps - 1) + 1));
+                state.addUniform(
+                    new osg::Uniform(("map" + std::to_string(i)).c_str(), std::min(i, set_up.maps - 1) + 1));
             state.addUniform(new osg::Uniform("map_count", set_up.maps));
             bool const by_depth = set_up.maps == 1 || set_up.id.ends_with("by-depth");
             state.addUniform(new osg::Uniform("by_depth", by_depth ? (set_up.ours ? 1 : 2) : 0));

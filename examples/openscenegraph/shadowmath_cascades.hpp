@@ -7,12 +7,12 @@
 //
 // Each map is a depth texture with comparison on, and a texgen in eye space, on texture units from base_unit on, as the
 // techniques of osgShadow leave theirs: a shader that reads those reads these. split_ends() is a uniform of the eye depths
-// at which the splits end. Suns and spot lights, one light: the first that is found. One view.
-//
-// OpenSceneGraph computes in double, and so does this.
+// at which the splits end. One view; one light, sun or spot: the first that is found. In double, as OpenSceneGraph is.
 #pragma once
 
 #include <shadowmath/cascades.hpp>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <osg/Camera>
 #include <osg/ComputeBoundsVisitor>
@@ -25,10 +25,7 @@
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
-#include <array>
-#include <cstring>
-#include <optional>
-#include <string>
+#include <algorithm>
 #include <vector>
 
 // Vectors are rows to OpenSceneGraph, columns to GLM: in memory their matrices are the same sixteen numbers.
@@ -39,39 +36,35 @@ inline glm::dvec3 point(osg::Vec3d const& v) {
 }
 
 inline glm::dmat4 matrix(osg::Matrixd const& from) {
-    glm::dmat4 to;
-    std::memcpy(&to[0][0], from.ptr(), sizeof to);
-    return to;
+    return glm::make_mat4(from.ptr());
 }
 
 // The sides come from the projection, so a camera off its centre is right too; so does the near distance, as it was set.
 inline shadowmath::ViewVolume<double> view(osg::Matrixd const& eye_from_world, osg::Matrixd const& projection) {
-    osg::Matrixd const world_from_eye = osg::Matrixd::inverse(eye_from_world);
-    auto const axis = [&](int row) {
-        return glm::dvec3(world_from_eye(row, 0), world_from_eye(row, 1), world_from_eye(row, 2));
-    };
-    shadowmath::Pose<double> const pose{point(world_from_eye.getTrans()), axis(0), axis(1), -axis(2)};
+    glm::dmat4 const at = matrix(osg::Matrixd::inverse(eye_from_world));
+    shadowmath::Pose<double> const pose{glm::dvec3(at[3]), glm::dvec3(at[0]), glm::dvec3(at[1]), -glm::dvec3(at[2])};
     double left, right, bottom, top, z_near = 0.0, z_far = 0.0;
     if (!projection.getFrustum(left, right, bottom, top, z_near, z_far))
         projection.getOrtho(left, right, bottom, top, z_near, z_far);
     return shadowmath::view_from_projection(pose, matrix(projection), z_near, z_far);
 }
 
-// The first light of those that the traversal has met, in world space.
-inline std::optional<shadowmath::Light<double>> light(osgUtil::CullVisitor& cull, osg::Matrixd const& eye_from_world) {
-    osg::Matrixd const world_from_eye = osg::Matrixd::inverse(eye_from_world);
+// The first light of those that the traversal has met, in world space; none: one without direction, which has no map.
+inline shadowmath::Light<double> light(osgUtil::CullVisitor& cull, osg::Matrixd const& eye_from_world) {
+    glm::dmat4 const world_from_eye = matrix(osg::Matrixd::inverse(eye_from_world));
     auto const& met = cull.getCurrentRenderBin()->getStage()->getPositionalStateContainer()->getAttrMatrixList();
     for (auto const& [attribute, eye_from_local] : met) {
         auto const* const from = dynamic_cast<osg::Light const*>(attribute.get());
         if (from == nullptr) continue;
-        osg::Matrixd const world_from_local = (eye_from_local ? osg::Matrixd(*eye_from_local) : osg::Matrixd()) * world_from_eye;
-        osg::Vec4d const at = osg::Vec4d(from->getPosition()) * world_from_local;
-        if (at.w() == 0.0) return shadowmath::directional(-glm::dvec3(at.x(), at.y(), at.z()));
-        osg::Vec3d const axis = osg::Matrixd::transform3x3(osg::Vec3d(from->getDirection()), world_from_local);
+        glm::dmat4 const world_from_local = eye_from_local ? world_from_eye * matrix(*eye_from_local) : world_from_eye;
+        osg::Vec4d const position = from->getPosition();
+        glm::dvec4 const at = world_from_local * glm::dvec4(position.x(), position.y(), position.z(), position.w());
+        if (at.w == 0.0) return shadowmath::directional(-glm::dvec3(at));
+        glm::dvec3 const axis = glm::dmat3(world_from_local) * point(from->getDirection());
         double const half_angle = osg::DegreesToRadians(double(from->getSpotCutoff()));
-        return shadowmath::spot(glm::dvec3(at.x(), at.y(), at.z()) / at.w(), point(axis), half_angle, 1e4);
+        return shadowmath::spot(glm::dvec3(at) / at.w, axis, half_angle, 1e4);
     }
-    return std::nullopt;
+    return shadowmath::directional(glm::dvec3(0.0));
 }
 
 // Of all that the mask lets through, in view or not: what the eye does not see may shadow what it does.
@@ -90,7 +83,9 @@ class ShadowmathCascades : public osgShadow::ShadowTechnique {
 public:
     explicit ShadowmathCascades(shadowmath::CascadeOptions<double> const& options, unsigned base_unit = 1)
         : options_(options), base_unit_(base_unit), split_ends_(new osg::Uniform("split_ends", osg::Vec4f())),
-          offset_(new osg::PolygonOffset(1.1f, 4.0f)) {}
+          offset_(new osg::PolygonOffset(1.1f, 4.0f)) {
+        options_.count = std::clamp(options.count, 1, shadowmath::max_splits);
+    }
 
     [[nodiscard]] shadowmath::Cascades<double> const& cascades() const { return cascades_; }  // of the last frame
     [[nodiscard]] osg::PolygonOffset& polygon_offset() { return *offset_; }                   // of the casters
@@ -128,20 +123,16 @@ public:
         auto const light = from_osg::light(cull, eye_from_world);
         auto const view = from_osg::view(eye_from_world, *cull.getProjectionMatrix());
         shadowmath::Cascades<double> const last = cascades_;
-        cascades_ = light ? shadowmath::fit_cascades(view, *light, casters_, receivers_, options_, &last)
-                          : shadowmath::Cascades<double>{};
-        std::array<float, 4> ends{};
+        cascades_ = shadowmath::fit_cascades(view, light, casters_, receivers_, options_, &last);
+        osg::Vec4f ends;
         for (int i = 0; i < 4 && cascades_.count > 0; ++i)
-            ends[std::size_t(i)] = float(cascades_.at[std::min(i, cascades_.count - 1)].range.end);
-        split_ends_->set(osg::Vec4f(ends[0], ends[1], ends[2], ends[3]));
+            ends[unsigned(i)] = float(cascades_.at[std::min(i, cascades_.count - 1)].range.end);
+        split_ends_->set(ends);
 
         cull.setTraversalMask(mask & settings->getCastsShadowTraversalMask());
         cull.pushStateSet(casting_.get());
-        for (std::size_t i = 0; i < maps_.size(); ++i) {
-            shadowmath::ShadowMap<double> map;  // sees nothing, unless there is one
-            if (int(i) < cascades_.count) map = cascades_.at[i].map;
-            draw(maps_[i], map, base_unit_ + unsigned(i), cull, eye_from_world);
-        }
+        for (int i = 0; i < options_.count; ++i)  // beyond the count of cascades stand maps that see nothing
+            draw(maps_[std::size_t(i)], cascades_.at[i].map, base_unit_ + unsigned(i), cull, eye_from_world);
         cull.popStateSet();
         cull.setTraversalMask(mask);
     }
@@ -162,7 +153,8 @@ private:
 
     void add_map(unsigned unit) {
         Map map{new osg::Camera, new osg::Texture2D, new osg::TexGen};
-        map.texture->setTextureSize(options_.map_size, options_.map_size);
+        int const size = options_.map_size;
+        map.texture->setTextureSize(size, size);
         map.texture->setInternalFormat(GL_DEPTH_COMPONENT24);
         map.texture->setSourceFormat(GL_DEPTH_COMPONENT);
         map.texture->setShadowComparison(true);
@@ -174,7 +166,7 @@ private:
         map.camera->setRenderOrder(osg::Camera::PRE_RENDER);
         map.camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
         map.camera->attach(osg::Camera::DEPTH_BUFFER, map.texture.get());
-        map.camera->setViewport(0, 0, options_.map_size, options_.map_size);
+        map.camera->setViewport(0, 0, size, size);
         map.camera->setClearMask(GL_DEPTH_BUFFER_BIT);
         map.camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
         map.camera->setCullingMode(osg::CullSettings::VIEW_FRUSTUM_CULLING);

@@ -1,8 +1,8 @@
 #version 330 core
 // SPDX-License-Identifier: MIT
 //
-// Shades as the gallery's receivers do. The filter is nine texels, each lit or not, and each compared with the depth that
-// the surface's own plane has there (Isidoro 2006); what no map holds is lit.
+// Shades as the gallery's receivers do. The filter is nine texels, each lit or not, and each compared with the depth
+// that the surface's own plane has there (Isidoro 2006); what no map holds is lit.
 in vec3 point;
 in vec3 shading_normal;
 in vec3 reflectance;
@@ -32,7 +32,7 @@ struct Place {
 
 Place place_in(mat4 map_from_world, vec3 normal) {
     vec4 p = map_from_world * vec4(point, 1.0);
-    vec3 along = normalize(abs(normal.x) > 0.7 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+    vec3 along = normalize(cross(normal, abs(normal.x) > 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
     vec4 da = map_from_world * vec4(along, 0.0), db = map_from_world * vec4(cross(normal, along), 0.0);
     vec3 a = da.xyz * p.w - p.xyz * da.w, b = db.xyz * p.w - p.xyz * db.w;  // times w * w
     float area = a.x * b.y - a.y * b.x;

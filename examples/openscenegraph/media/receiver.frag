@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // One receiver for every technique, so that pictures differ by the maps alone: each leaves comparing depth textures on
-// the units from 1 on, and texgen planes in eye space that lead into them. The filter is nine texels, each lit or not, and
-// each compared with the depth that the surface's own plane has there (Isidoro 2006); what no map holds is lit.
+// the units from 1 on, and texgen planes in eye space that lead into them. The filter is nine texels, each lit or not,
+// and each compared with the depth that the surface's own plane has there (Isidoro 2006); what no map holds is lit.
 in vec4 point;  // eye space
 in vec3 shading_normal;
 in vec3 reflectance;
@@ -18,8 +18,8 @@ uniform float zShadow1;
 uniform float zShadow2;
 uniform float zShadow3;
 uniform int map_count;
-uniform int by_depth;  // 0: the first map that holds the point; 1: the map of the split that it is in, by split_ends; 2: by
-                       // zShadow; of one map, that one
+uniform int by_depth;  // 0: the first map that holds the point; 1: the map of the split that it is in, by split_ends;
+                       // 2: by zShadow; of one map, that one
 uniform mat4 world_from_eye;
 
 struct Place {
@@ -32,7 +32,7 @@ Place place_in(int unit, vec3 normal) {
     mat4 map_from_eye =
         transpose(mat4(gl_EyePlaneS[unit], gl_EyePlaneT[unit], gl_EyePlaneR[unit], gl_EyePlaneQ[unit]));
     vec4 p = map_from_eye * point;
-    vec3 along = normalize(abs(normal.x) > 0.7 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+    vec3 along = normalize(cross(normal, abs(normal.x) > 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
     vec4 da = map_from_eye * vec4(along, 0.0), db = map_from_eye * vec4(cross(normal, along), 0.0);
     vec3 a = da.xyz * p.w - p.xyz * da.w, b = db.xyz * p.w - p.xyz * db.w;  // times w * w
     float area = a.x * b.y - a.y * b.x;
