@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash disable=SC2034
 #
-# Sourced by scripts/demo, scripts/test and scripts/bench: what each needs of Debian, once, and how it gets there.
+# Sourced by scripts/demo, scripts/test, scripts/bench and scripts/engines: what each needs of Debian, once, and how it
+# gets there.
 
 demo_packages=(
     g++ cmake ninja-build
@@ -24,7 +25,12 @@ test_packages=(
     chromium                                                     # opens the gallery
     doxygen                                                      # the reference has no warnings
 )
+engine_packages=(
+    libogre-1.12-dev libopenscenegraph-dev                       # the engines that shadowmath is dropped into
+    xvfb xauth                                                   # a display for them
+)
 all_packages=(
+    "${engine_packages[@]}"
     clang-19                                                     # the newest compiler
     g++-aarch64-linux-gnu qemu-user-static                       # another processor
     emscripten nodejs                                            # and WebAssembly
