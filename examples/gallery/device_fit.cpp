@@ -11,8 +11,8 @@ void compare(FitRecord& record, std::span<backend::MapConstants const> fitted, D
     for (std::size_t i = 0; i < cpp.maps.size(); ++i) {
         backend::MapConstants const &a = fitted[i], &b = cpp.frame.maps[i];
         ++record.maps;
-        record.unlike_maps += a.clip_from_world != b.clip_from_world || a.depth_end != b.depth_end ||
-                              a.blend_begin != b.blend_begin;
+        record.unlike_maps +=
+            a.clip_from_world != b.clip_from_world || a.depth_end != b.depth_end || a.blend_begin != b.blend_begin;
     }
     Parity drawn;
     compare(drawn, from_cpp, on_device);

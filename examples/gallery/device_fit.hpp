@@ -17,11 +17,11 @@ struct FitRecord {
     std::string scene, backend;
     int pictures = 0;
     int maps = 0;
-    int unlike_maps = 0;      // with a bit of the matrix or of a range that is not the C++'s
-    long texels = 0;          // of the maps
-    long unlike_texels = 0;   // of another depth than the map drawn with the C++'s matrix
-    long pixels = 0;          // of the pictures
-    long unlike_pixels = 0;   // of another colour: biases agree to some ulp only, and that may turn a comparison
+    int unlike_maps = 0;     // with a bit of the matrix or of a range that is not the C++'s
+    long texels = 0;         // of the maps
+    long unlike_texels = 0;  // of another depth than the map drawn with the C++'s matrix
+    long pixels = 0;         // of the pictures
+    long unlike_pixels = 0;  // of another colour: biases agree to some ulp only, and that may turn a comparison
 };
 
 // Adds one picture: what the device fitted and drew with it, and what the C++ made of the same depth and drew.

@@ -13,7 +13,8 @@
 namespace shadowmath::gallery {
 namespace {
 
-constexpr backend::Extent extent{320, 180};  // of the eye: what fits to samples look at, and where points are taken from
+constexpr backend::Extent extent{320,
+                                 180};  // of the eye: what fits to samples look at, and where points are taken from
 constexpr int points_wanted = 12000;
 
 struct Point {
@@ -198,8 +199,8 @@ scenes::View flown(scenes::View const& view, int frame) {
     there.eye += ahead * (3.0 * (1.0 - std::cos(turn))) + right * (1.2 * std::sin(turn));
     there.eye.y += 0.15 * std::sin(2.0 * turn);
     double const yaw = 0.3 * std::sin(turn), pitch = 0.06 * std::sin(2.0 * turn);
-    glm::dvec3 const turned = view.forward * std::cos(yaw) + glm::cross(glm::dvec3(0.0, 1.0, 0.0), view.forward) *
-                                                                 std::sin(yaw) +
+    glm::dvec3 const turned = view.forward * std::cos(yaw) +
+                              glm::cross(glm::dvec3(0.0, 1.0, 0.0), view.forward) * std::sin(yaw) +
                               glm::dvec3(0.0, view.forward.y * (1.0 - std::cos(yaw)), 0.0);
     there.forward = glm::normalize(turned + glm::dvec3(0.0, pitch, 0.0));
     return there;

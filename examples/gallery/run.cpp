@@ -199,11 +199,12 @@ Results run(Settings const& settings, std::span<scenes::NamedScene const> scenes
             }
             if (view.has_spot) continue;
             tell("flying through " + named.scene.name + ", " + std::to_string(settings.flight_frames()) + " frames");
-            std::ranges::move(fly(*backends.front(), oracle, named.scene, view, settings.flight_frames(),
-                                  settings.flight_map_size(), [&tell](int frame) {
-                                      if (frame % 50 == 49) tell("frame " + std::to_string(frame + 1));
-                                  }),
-                              std::back_inserter(results.flights));
+            std::ranges::move(
+                fly(*backends.front(), oracle, named.scene, view, settings.flight_frames(), settings.flight_map_size(),
+                    [&tell](int frame) {
+                        if (frame % 50 == 49) tell("frame " + std::to_string(frame + 1));
+                    }),
+                std::back_inserter(results.flights));
         }
         std::ranges::move(parity, std::back_inserter(results.parity));
         std::ranges::move(fits, std::back_inserter(results.fits));

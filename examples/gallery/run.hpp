@@ -26,9 +26,9 @@ using Backends = std::span<std::unique_ptr<backend::Backend> const>;
 
 struct Results {
     std::vector<Record> records;
-    std::vector<WayRecord> ways;  // of the first view of each scene
-    std::vector<Parity> parity;   // of each scene and backend but the first
-    std::vector<FitRecord> fits;  // of each scene and backend
+    std::vector<WayRecord> ways;        // of the first view of each scene
+    std::vector<Parity> parity;         // of each scene and backend but the first
+    std::vector<FitRecord> fits;        // of each scene and backend
     std::vector<FlightRecord> flights;  // through the first view of each scene that a sun lights, every policy
     std::vector<Claim> claims;
     std::vector<CloseUp> close_ups;

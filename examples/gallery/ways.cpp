@@ -82,8 +82,8 @@ void compare_pictures(WayRecord& record, backend::Frame const& expected, Image<R
         for (int x = 0; x < drawn.extent.width; ++x) {
             int const apart = difference(expected.colour.at(x, y), drawn.at(x, y));
             record.unlike_pixels += apart > 0;
-            record.unlike_off_edges += apart > 1 && !is_border(expected, x, y) &&
-                                       !shows_within_a_pixel(expected.colour, x, y, drawn.at(x, y));
+            record.unlike_off_edges +=
+                apart > 1 && !is_border(expected, x, y) && !shows_within_a_pixel(expected.colour, x, y, drawn.at(x, y));
         }
 }
 

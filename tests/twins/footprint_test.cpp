@@ -48,8 +48,8 @@ TEST_P(FootprintTwins, GainsOnPlane) {
         Vec2<float> const half(draw.spoilt(draw.uniform(1.0f, 4000.0f)), draw.spoilt(draw.uniform(1.0f, 4000.0f)));
         Vec3<float> const normal = draw.vector();
         given(map.clip_from_world)(point)(half)(normal);
-        auto const gains = detail::gains_on_plane(map.clip_from_world, projected(map.clip_from_world, point),
-                                                  tangents(normal), half);
+        auto const gains =
+            detail::gains_on_plane(map.clip_from_world, projected(map.clip_from_world, point), tangents(normal), half);
         expected(gains.s)(gains.t)(gains.scale);
     });
 }

@@ -107,7 +107,8 @@ TEST_P(PcssTwins, SoftVisibility) {
 // The steps. A plane before or behind the depths of the map.
 detail::TapPlane<float> plane(Draw& draw) {
     float const x = draw.spoilt(draw.uniform(-1.0f, 33.0f)), y = draw.spoilt(draw.uniform(-1.0f, 33.0f));
-    float const depth = draw.spoilt(draw.uniform(0.0f, 1.0f)), along_x = draw.number(0.01f), along_y = draw.number(0.01f);
+    float const depth = draw.spoilt(draw.uniform(0.0f, 1.0f)), along_x = draw.number(0.01f),
+                along_y = draw.number(0.01f);
     return {Vec2<float>(x, y), depth, {along_x, along_y}};
 }
 void give(Words& given, detail::TapPlane<float> const& plane) {
@@ -217,7 +218,8 @@ TEST_P(PcssTwins, GapInCone) {
         give(given, drawn);
         given(at);
         twins::give(given, of_map);
-        given(static_cast<int>(reversed_depth ? DepthOrder::one_to_zero : DepthOrder::zero_to_one))(x)(y)(least)(widest);
+        given(static_cast<int>(reversed_depth ? DepthOrder::one_to_zero : DepthOrder::zero_to_one))(x)(
+            y)(least)(widest);
         float gap = 0.0f;
         if (map.holds(x, y)) {
             gap = gap_at(of_map, at, map.depth(x, y));

@@ -150,8 +150,8 @@ TEST_P(QuadsTwins, LineAcross) {
         Vec2<float> const corner(static_cast<float>(draw.whole(-32, 31)), static_cast<float>(draw.whole(-32, 31)));
         float const q = draw.spoilt(draw.log_uniform(1e-3f, 10.0f)), q_x = draw.number(0.1f), q_y = draw.number(0.1f);
         given(plane)(q)(q_x)(q_y)(corner);
-        expected(plane.x * corner.x + plane.y * corner.y + (plane.z + plane.w * q))(plane.x + plane.w * q_x)(
-            plane.y + plane.w * q_y);
+        expected(plane.x * corner.x + plane.y * corner.y +
+                 (plane.z + plane.w * q))(plane.x + plane.w * q_x)(plane.y + plane.w * q_y);
     });
 }
 
@@ -243,8 +243,8 @@ TEST_P(QuadsTwins, PointsDirectionsAndTheLightInPixels) {
         give_light(given, of.gpu);
         given(point)(direction);
         expected(Vec3<float>(point_in_pixels(exact(of), Vec3<double>(point))), 4)(
-            Vec3<float>(direction_in_pixels(exact(of), Vec3<double>(direction))), 4)(
-            Vec3<float>(exact_light(of).at), 4);
+            Vec3<float>(direction_in_pixels(exact(of), Vec3<double>(direction))), 4)(Vec3<float>(exact_light(of).at),
+                                                                                     4);
     });
 }
 

@@ -31,9 +31,8 @@ Fit fit(Draw& draw) {
     Fit drawn;
     Vec3<float> const eye = draw.within(draw.log_uniform(1.0f, 1000.0f)), forward = draw.unit();
     float const z_near = draw.log_uniform(0.01f, 1.0f), z_far = z_near * draw.log_uniform(10.0f, 1e4f);
-    ViewVolume<float> camera =
-        perspective_view(pose_looking(eye, forward, draw.unit()), draw.uniform(0.3f, 2.0f), draw.uniform(0.5f, 2.0f),
-                         z_near, z_far);
+    ViewVolume<float> camera = perspective_view(pose_looking(eye, forward, draw.unit()), draw.uniform(0.3f, 2.0f),
+                                                draw.uniform(0.5f, 2.0f), z_near, z_far);
     if (draw.one_in(4)) camera.kind = ViewKind::orthographic;
     drawn.light = directional(draw.unit());
     Vec3<float> const centre = eye + forward * draw.uniform(0.0f, z_far);
@@ -46,8 +45,8 @@ Fit fit(Draw& draw) {
     drawn.options.clip = draw.clip_space();
     int const width = draw.whole(1, 4000), height = draw.whole(1, 4000);
     drawn.rays = sample_rays(camera, drawn.light, width, height);
-    drawn.gpu = gpu_sample_fit(camera, draw.clip_space(), 0.0f, drawn.light, width, height, drawn.casters, {},
-                               drawn.options);
+    drawn.gpu =
+        gpu_sample_fit(camera, draw.clip_space(), 0.0f, drawn.light, width, height, drawn.casters, {}, drawn.options);
     EXPECT_GT(drawn.gpu.count, 0);
     return drawn;
 }
@@ -60,7 +59,8 @@ void give(Words& given, GpuSampleFit const& gpu) {
 
 // Of samples in light space, relative to the eye: one in eight is flat, one in sixteen empty.
 Aabb<float> box(Draw& draw) {
-    Vec3<float> const at = draw.within(draw.log_uniform(0.1f, 1000.0f)), size = draw.within(draw.log_uniform(0.1f, 500.0f));
+    Vec3<float> const at = draw.within(draw.log_uniform(0.1f, 1000.0f)),
+                      size = draw.within(draw.log_uniform(0.1f, 500.0f));
     Aabb<float> drawn{at, at + glm::abs(size)};
     if (draw.one_in(8)) drawn.hi[draw.whole(0, 2)] = drawn.lo[draw.whole(0, 2)];
     if (draw.one_in(16)) drawn = {};
@@ -98,7 +98,8 @@ TEST_P(SamplesTwins, DecodedDepth) {
     prove({"decoded_depth", shader, 2}, [](Draw& draw, Words& given, Words& expected) {
         ViewVolume<float> view;
         view.z_near = draw.log_uniform(1e-3f, 10.0f);
-        view.z_far = draw.one_in(4) ? std::numeric_limits<float>::infinity() : view.z_near * draw.log_uniform(2.0f, 1e6f);
+        view.z_far =
+            draw.one_in(4) ? std::numeric_limits<float>::infinity() : view.z_near * draw.log_uniform(2.0f, 1e6f);
         if (draw.one_in(4)) view.kind = ViewKind::orthographic;
         DepthCode<float> const code = depth_code(view, draw.clip_space());
         float const stored = draw.one_in(8) ? code.sky : draw.spoilt(draw.uniform(0.0f, 1.0f));
@@ -109,7 +110,8 @@ TEST_P(SamplesTwins, DecodedDepth) {
 
 TEST_P(SamplesTwins, KindOfDepth) {
     prove({"kind_of_depth", shader, 3, 3}, [](Draw& draw, Words& given, Words& expected) {
-        float const z_near = draw.one_in(8) ? 0.0f : draw.log_uniform(0.1f, 10.0f), z_far = draw.log_uniform(20.0f, 1e4f);
+        float const z_near = draw.one_in(8) ? 0.0f : draw.log_uniform(0.1f, 10.0f),
+                    z_far = draw.log_uniform(20.0f, 1e4f);
         // One in four lies exactly at an end, or at the other zero.
         float const at_end = draw.one_in(3) ? z_far : (draw.one_in(2) ? z_near : -z_near);
         float const depth = draw.one_in(4) ? at_end : draw.spoilt(draw.log_uniform(1e-2f, 1e5f));
@@ -146,7 +148,8 @@ TEST_P(SamplesTwins, IsServed) {
     prove({"is_served", shader, 6, 2}, [](Draw& draw, Words& given, Words& expected) {
         float const begin = draw.spoilt(draw.uniform(0.0f, 10.0f)), end = draw.spoilt(draw.uniform(5.0f, 20.0f));
         // One in three lies about where a depth stops to count.
-        float const edge = (draw.one_in(2) ? begin : end) * (1.0f + static_cast<float>(draw.whole(-2050, 2050)) * 0x1p-23f);
+        float const edge =
+            (draw.one_in(2) ? begin : end) * (1.0f + static_cast<float>(draw.whole(-2050, 2050)) * 0x1p-23f);
         float const depth = draw.one_in(3) ? edge : draw.spoilt(draw.uniform(0.0f, 25.0f));
         given(begin)(0.0f)(end)(0.0f)(depth);
         expected(is_served(SliceRange<float>{begin, 0.0f, end}, depth));
@@ -186,7 +189,8 @@ TEST_P(SamplesTwins, StillSide) {
         float const lo = draw.uniform(-1e4f, 1e4f), hi = lo + draw.log_uniform(1e-1f, 1e4f);
         int const size = draw.whole(16, 8192);
         float const margin = static_cast<float>(draw.whole(0, 3));
-        float const spare = 1.0f / (usable_texels(size, margin) - 1.0f) * (1.0f + 4.0f * std::numeric_limits<float>::epsilon());
+        float const spare =
+            1.0f / (usable_texels(size, margin) - 1.0f) * (1.0f + 4.0f * std::numeric_limits<float>::epsilon());
         Faults faults;
         given(lo)(hi)(static_cast<float>(size))(spare);
         give(expected, detail::still_side(lo, hi, size, margin, faults));

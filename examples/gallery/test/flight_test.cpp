@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Stable policies stand still, and the measurement sees those that do not.
-#include "backends/gl/gl_backend.hpp"
 #include "examples/gallery/flight.hpp"
+#include "backends/gl/gl_backend.hpp"
 #include "scenes/scenes.hpp"
 
 #include <gtest/gtest.h>
