@@ -60,8 +60,8 @@ struct MapSet {
 [[nodiscard]] MapSet fit(Technique const& technique, backend::Scene const& scene, scenes::View const& view,
                          backend::Extent extent, backend::Image<float> const& eye_depth = {});
 
-// Cascades under way: `last` are those of the frame before, and become this frame's. Of the options the gallery sets
-// what its passes need.
+// Cascades under way: `last` are those of the frame before, and become this frame's. The gallery sets the options that
+// its passes ask for.
 [[nodiscard]] MapSet fit_cascade_maps(backend::Scene const& scene, scenes::View const& view, backend::Extent extent,
                                       CascadeOptions<double> options, Cascades<double>& last);
 

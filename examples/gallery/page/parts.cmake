@@ -4,5 +4,4 @@
 set(page_html page.html)
 set(page_css page.css)
 set(page_js script/base.js script/masthead.js script/summary.js script/show.js script/ways.js script/flight.js
-            script/close_ups.js
-            script/claims.js script/records.js script/method.js script/main.js)
+            script/close_ups.js script/claims.js script/records.js script/method.js script/main.js)

@@ -211,6 +211,24 @@ TEST_F(Gallery, FitsOnEveryDeviceTheMapsOfTheCppAndUsesThemThere) {
         }
 }
 
+TEST_F(Gallery, FliesThroughEachSceneUnderEveryPolicy) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    std::set<std::string> policies;
+    for (auto const& flight : results.at("flights")) {
+        policies.insert(flight.at("policy").get<std::string>());
+        EXPECT_EQ(flight.at("frames"), 12);
+        EXPECT_GT(flight.at("decisions").get<long>(), 1000) << flight.dump();
+        EXPECT_LE(flight.at("flips_within").get<long>(), flight.at("flips").get<long>()) << flight.dump();
+        if (flight.at("stable").get<bool>()) {
+            EXPECT_EQ(flight.at("flips_within"), 0) << flight.dump();
+        }
+    }
+    for (char const* policy :
+         {"stable", "tight", "rectangle", "focus", "warped", "vdsm-fallback", "sdsm", "chosen-still", "chosen"})
+        EXPECT_TRUE(policies.count(policy)) << policy;
+    EXPECT_EQ(results.at("flights").size(), policies.size() * results.at("scenes").size());
+}
+
 TEST_F(Gallery, BreaksNoPromise) {
     auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
     EXPECT_EQ(results.at("judged").get<bool>(), is_mesa_software(results));
@@ -306,6 +324,7 @@ TEST_F(Gallery, TellsWrongUsageWithStatusTwo) {
     expect_refusal("--backend metal --out new", 2, "--help");
     expect_refusal("--scene moon --out new", 2, "--help");
     expect_refusal("--seed minus --out new", 2, "--help");
+    expect_refusal("--flight 1 --out new", 2, "--help");
     expect_refusal("--no-such-option", 2, "--help");
     expect_refusal("--scene none", 2, "none");
     EXPECT_EQ(gallery("--help").status, 0);
