@@ -19,7 +19,7 @@ backend::FitPass eye_depth_pass(scenes::View const& view, backend::Extent extent
     return {extent, clip_from_world(sampling_eye(view, extent), sampling_clip), {}, {}, 0};
 }
 
-void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device) {
+void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device, bool still) {
     ViewVolume<float> const camera = sampling_eye(in.view, in.extent);
     Light<float> const light = directional(glm::vec3(in.view.light_travel));
     float const shadow_distance = float(in.view.shadow_distance);
@@ -31,6 +31,7 @@ void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_devic
     options.map_size = in.map_size;
     options.margin_texels = float(margin_texels);
     options.clip = drawn_clip;
+    options.still = still;
 
     DepthCode<float> const code = depth_code(camera, sampling_clip);
     SampleDepths<float> depths = no_depths(camera.z_near, shadow_distance);
@@ -49,7 +50,10 @@ void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_devic
     for (std::uint32_t i = 0; i < in.scene.objects.size(); ++i)
         if (in.scene.objects[i].casts) all_casters.push_back(i);
     for (int i = 0; i < (on_device ? splits.count : fitted.count); ++i) {
-        Cascade<float> const& cascade = fitted.at[i];
+        Cascade<float> cascade;  // of a split that was not needed: it ends where it begins, at the far end
+        cascade.map.clip_from_world = nowhere<float>();
+        cascade.range = {shadow_distance, shadow_distance, shadow_distance};
+        if (i < fitted.count) cascade = fitted.at[i];
         MapBias<float> const bias = bias_for(cascade.map, light, in.map_size, BiasOptions<float>{});
         MapConstants& constants = set.frame.maps[set.maps.size()];
         constants.clip_from_world = cascade.map.clip_from_world;

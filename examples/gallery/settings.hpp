@@ -23,6 +23,9 @@ struct Settings {
 
     // Of every way to draw the maps: the first one also compiles.
     [[nodiscard]] int way_runs() const { return quick ? 1 : 2; }
+
+    [[nodiscard]] int flight_frames() const { return quick ? 12 : 300; }
+    [[nodiscard]] int flight_map_size() const { return quick ? 512 : 1024; }
 };
 
 }  // namespace shadowmath::gallery

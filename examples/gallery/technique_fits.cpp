@@ -87,17 +87,20 @@ CascadeOptions<double> cascade_options(Input const& in, CascadeFit fit) {
 
 }  // namespace
 
-void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
-    set.frame.choice = choice;
-    CascadeOptions<double> options = cascade_options(in, fit);
-    options.lambda = lambda;
-    Cascades<double> const fitted = fit_cascades(in.seen, in.light, in.casters, in.receivers, options);
+void add(MapSet& set, Input const& in, Cascades<double> const& fitted) {
     note(set, fitted.faults);
     for (Cascade<double> const& cascade : fitted) {
         add(set, in, cascade.map, cascade.range);
         set.splits.push_back(cascade.range.end);
     }
     if (fitted.count > 0) set.splits.insert(set.splits.begin(), in.seen.z_near);
+}
+
+void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, MapChoice choice) {
+    set.frame.choice = choice;
+    CascadeOptions<double> options = cascade_options(in, fit);
+    options.lambda = lambda;
+    add(set, in, fit_cascades(in.seen, in.light, in.casters, in.receivers, options));
 }
 
 ShadowMap<double> standard_map(Input const& in) {

@@ -47,6 +47,7 @@ void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<
 
 [[nodiscard]] SliceRange<double> whole(Input const& in);
 
+void add(MapSet& set, Input const& in, Cascades<double> const& fitted);
 void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, backend::MapChoice choice);
 
 // One map for all that is seen.
@@ -68,6 +69,6 @@ inline constexpr ClipSpace sampling_clip = reversed(drawn_clip);
 
 // Cascades fitted to the eye's depth, in float throughout, so that the device's own fit can be held against it bit for
 // bit. Every split keeps its place, seen or not.
-void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device);
+void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_device, bool still);
 
 }  // namespace shadowmath::gallery

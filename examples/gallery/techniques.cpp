@@ -18,6 +18,7 @@ struct Entry {
     Technique technique;
     bool quick;  // also in quick runs
     std::function<void(MapSet&, Input const&)> make;
+    bool shown = true;  // false: of the flight alone
 };
 
 std::vector<Entry> const& entries() {
@@ -45,8 +46,8 @@ std::vector<Entry> const& entries() {
         };
     };
     auto const sdsm = "Lauritzen, Salvi, Lefohn, I3D 2011";
-    auto const sampled = [](SampleSplits kind, bool on_device) {
-        return [=](MapSet& set, Input const& in) { sampled_maps(set, in, kind, on_device); };
+    auto const sampled = [](SampleSplits kind, bool on_device, bool still = false) {
+        return [=](MapSet& set, Input const& in) { sampled_maps(set, in, kind, on_device, still); };
     };
     static std::vector<Entry> const all = {
         {{"uniform-1", "One uniform map", "Williams 1978", 1024, 1, true}, true, single(standard_map)},
@@ -86,6 +87,10 @@ std::vector<Entry> const& entries() {
         {{"sdsm-gpu", "The same, fitted on the GPU and used there", sdsm, 1024, 4, false, true},
          true,
          sampled(SampleSplits::adaptive, true)},
+        {{"sdsm-still", "The same, still", sdsm, 1024, 4, false, true},
+         false,
+         sampled(SampleSplits::adaptive, false, true),
+         false},
         {{"simple-perspective", "Simple perspective map, corrected", "weblog 2012", 1024, 1, false},
          true,
          warped(optimal)},
@@ -116,7 +121,7 @@ std::vector<Entry> const& entries() {
 std::vector<Technique> techniques(bool quick) {
     std::vector<Technique> list;
     for (Entry const& entry : entries())
-        if (entry.quick || !quick) list.push_back(entry.technique);
+        if (entry.shown && (entry.quick || !quick)) list.push_back(entry.technique);
     return list;
 }
 
@@ -135,29 +140,67 @@ FrameConstants unshadowed(View const& view, backend::Extent extent) {
     return frame;
 }
 
-MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent,
-           backend::Image<float> const& eye_depth) {
-    MapSet set;
-    set.map_size = technique.map_size;
-    set.frame = unshadowed(view, extent);
-    set.frame.map_size = float(technique.map_size);
-    set.frame.choice = MapChoice::by_map;
+namespace {
+
+Input input_of(Scene const& scene, View const& view, backend::Extent extent, int map_size,
+               backend::Image<float> const& eye_depth) {
     View3 const eye = eye_of(view, extent);
     View3 seen = eye;
     seen.z_far = view.shadow_distance;
-    Input const in{scene,
-                   eye,
-                   seen,
-                   light_of(view),
-                   box_of_all(scene, &backend::Object::casts),
-                   box_of_all(scene, &backend::Object::receives),
-                   technique.map_size,
-                   view,
-                   extent,
-                   eye_depth};
+    return {scene,
+            eye,
+            seen,
+            light_of(view),
+            box_of_all(scene, &backend::Object::casts),
+            box_of_all(scene, &backend::Object::receives),
+            map_size,
+            view,
+            extent,
+            eye_depth};
+}
+
+MapSet no_maps(View const& view, backend::Extent extent, int map_size) {
+    MapSet set;
+    set.map_size = map_size;
+    set.frame = unshadowed(view, extent);
+    set.frame.map_size = float(map_size);
+    set.frame.choice = MapChoice::by_map;
+    return set;
+}
+
+}  // namespace
+
+MapSet fit(Technique const& technique, Scene const& scene, View const& view, backend::Extent extent,
+           backend::Image<float> const& eye_depth) {
+    MapSet set = no_maps(view, extent, technique.map_size);
+    Input const in = input_of(scene, view, extent, technique.map_size, eye_depth);
     for (Entry const& entry : entries())
         if (entry.technique.id == technique.id) entry.make(set, in);
     return set;
+}
+
+MapSet fit_cascade_maps(Scene const& scene, View const& view, backend::Extent extent, CascadeOptions<double> options,
+                        Cascades<double>& last) {
+    MapSet set = no_maps(view, extent, options.map_size);
+    backend::Image<float> const no_depth;
+    Input const in = input_of(scene, view, extent, options.map_size, no_depth);
+    options.filter_radius = filter_radius;
+    options.clip = drawn_clip;
+    last = fit_cascades(in.seen, in.light, in.casters, in.receivers, options, &last);
+    add(set, in, last);
+    return set;
+}
+
+CascadeOptions<double> choose_cascades(Scene const& scene, View const& view, backend::Extent extent,
+                                       std::span<SurfacePoint<double> const> samples,
+                                       CascadeOptions<double> const& options, ChoiceLimits<double> const& limits) {
+    backend::Image<float> const no_depth;
+    Input const in = input_of(scene, view, extent, options.map_size, no_depth);
+    CascadeOptions<double> given = options;
+    given.filter_radius = filter_radius;
+    given.clip = drawn_clip;
+    return choose(in.seen, in.light, in.casters, in.receivers, samples.data(), int(samples.size()), given, limits)
+        .options;
 }
 
 SplitObjects objects_in_splits(MapSet const& set, Scene const& scene, View const& view, backend::Extent extent) {

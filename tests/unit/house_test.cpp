@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -41,6 +42,12 @@ std::vector<std::string> matches(std::string const& text, std::regex const& patt
     for (auto it = std::sregex_iterator(text.begin(), text.end(), pattern); it != std::sregex_iterator(); ++it)
         found.push_back((*it)[group]);
     return found;
+}
+
+// From a function's name to the brace that closes it, in the first column.
+std::string body_of(std::string const& text, std::string const& name) {
+    std::size_t const begin = text.find(" " + name + "(");
+    return begin == std::string::npos ? std::string() : text.substr(begin, text.find("\n}", begin) - begin);
 }
 
 std::vector<std::string> includes_of(fs::path const& path) {
@@ -106,6 +113,33 @@ TEST(House, EveryPublicFunctionIsInstantiatedByTheCompileTests) {
     for (fs::path const& header : sources_under("include/shadowmath"))
         for (std::string const& name : matches(std::regex_replace(code_of(header), hidden, "\n"), declaration))
             EXPECT_TRUE(std::regex_search(called, std::regex("\\b" + name + "\\b"))) << header << ": " << name;
+}
+
+TEST(House, EveryFunctionOfTheGlslLibraryIsHeldAgainstTheCppByATwin) {
+    // A few are steps of one other function and differ from it by a line: that one is asked, and calls them.
+    std::map<std::string, std::string> const steps = {
+        {"sm_slope_at", "sm_slope"}, {"sm_lean_at", "sm_lean"}, {"sm_pixel_plane", "sm_shadow_volume"}};
+    auto const calls = [](std::string const& text, std::string const& name) {
+        return std::regex_search(text, std::regex("\\b" + name + "\\("));
+    };
+    std::string asked, library;
+    for (fs::directory_entry const& entry : fs::directory_iterator(root / "tests/twins"))
+        if (entry.path().extension() == ".comp") asked += code_of(entry.path());
+    int count = 0;
+    for (fs::directory_entry const& entry : fs::directory_iterator(root / "include/shadowmath/glsl")) {
+        std::string const text = code_of(entry.path());
+        for (std::string const& name : matches(text, std::regex(R"(\n\w+ (sm_\w+)\([^;{]*\) \{)"))) {
+            ++count;
+            auto const step = steps.find(name);
+            if (step == steps.end()) {
+                EXPECT_TRUE(calls(asked, name)) << entry.path() << ": no shader of tests/twins asks " << name;
+                continue;
+            }
+            std::string const caller = body_of(text, step->second);
+            EXPECT_TRUE(calls(asked, step->second) && calls(caller, name)) << name << " is no step of " << step->second;
+        }
+    }
+    EXPECT_GE(count, 120);
 }
 
 TEST(House, EveryAssertionIsSeenToFail) {
