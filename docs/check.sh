@@ -27,7 +27,7 @@ prose() { awk '/^```/ { code = !code; next } !code' "$1"; } # FILE: without its 
 
 # Pictures and tables are what the programs make of the headers today.
 mkdir "$fresh/images"
-for program in "$programs"/example_* "$programs/docs_pictures"; do
+for program in "$programs"/example_[0-9]* "$programs/docs_pictures"; do
     "$program" "$fresh/images" > "$fresh/log" || { basename "$program"; cat "$fresh/log" >&2; }
 done | report 'does not prove what it says'
 "$programs/docs_accuracy" "$fresh/accuracy" "$fresh/images/accuracy.svg"

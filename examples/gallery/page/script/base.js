@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 const faults = [];
 window.addEventListener("error", event => faults.push(event.message || "an image did not load"), true);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Flips of ten thousand decisions, policy by policy.
 function flightTable() {
   if (!flights.length) { byId("flight").hidden = true; return; }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page's own test, for index.html#check: every picture of every choice must load, and no script error may occur.
 async function check() {
   const wanted = new Set();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function masthead() {
   const judged = records.reduce((sum, r) => sum + r.lit_facing_pixels, 0);
   const views = scenes.reduce((sum, s) => sum + s.views.length, 0);

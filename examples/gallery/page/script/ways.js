@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 const totalOf = (rows, key) => rows.reduce((sum, row) => sum + row[key], 0);
 const whole = x => x.toLocaleString("en");
 const mebibytes = w => (w.maps_in_memory * w.map_size ** 2 * 4 / 2 ** 20).toFixed(0);
