@@ -105,8 +105,8 @@ int every_function() noexcept {
                   &normal_offset_metres<T>, &normal_offset_at<T>, &bias_for<T>, &bias_at<T>);
     count += keep(&by_footprint<T>, &choose_planes<T>);
     count += keep(&bounds_of<T>);
-    count += keep(&least_squares_plane<T>, &median_plane<T>, &weighted_median_plane<T>, &plane_distortion<T>, &choose_plane<T>, &worth_of<T>,
-                  &still_good<T>);
+    count += keep(&least_squares_plane<T>, &median_plane<T>, &weighted_median_plane<T>, &plane_distortion<T>,
+                  &choose_plane<T>, &worth_of<T>, &still_good<T>);
     count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
     count += keep(&clipmap<T>, &pixel_metres<T>, &page_at<T>, &holds<T>, &page_for<T>);
