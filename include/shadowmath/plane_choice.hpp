@@ -173,9 +173,9 @@ template <class T>
     return served > 0 ? sum / T(count) : worst;
 }
 
-// The plane of least distortion among: across `ground_normal` at the two median heights, the least squares, and the best
-// one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no other
-// has less than 1 - `hysteresis` times its distortion.
+// The plane of least distortion among: across `ground_normal` at the two median heights, the least squares, and the
+// best one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no
+// other has less than 1 - `hysteresis` times its distortion.
 template <class T>
 [[nodiscard]] inline PlaneChoice<T> choose_plane(ViewVolume<T> const& view, Light<T> const& light,
                                                  SurfacePoint<T> const* samples, int sample_count,

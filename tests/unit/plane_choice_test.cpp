@@ -70,7 +70,8 @@ TEST(MedianPlane, HasHalfOfThePointsOnEitherSideWhateverTheOutliers) {
     EXPECT_EQ(median_plane<double>(up, nullptr, 0).offset, 0.0);
 }
 
-// Ten points a few metres ahead, a hundred far away and 3 m higher: these take a fifteenth of the pixels of the near ones.
+// Ten points a few metres ahead, a hundred far away and 3 m higher: these take a fifteenth of the pixels of the near
+// ones.
 TEST(MedianPlane, WithWeightsIsNotOutvotedByWhatIsFar) {
     ViewVolume<double> const view = view_over_ground();
     Points points;
