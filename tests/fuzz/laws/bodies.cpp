@@ -20,7 +20,8 @@ struct Cut {
 template <class T>
 Cut<T> cut_body(Case& c) {
     Aabb<T> const start = small_box<T>(c, T(10));
-    Cut<T> cut{convex_body(start), in_box(c, start), T(20 * 18) * std::numeric_limits<T>::epsilon() * T(35), c.below(10)};
+    Cut<T> cut{convex_body(start), in_box(c, start), T(20 * 18) * std::numeric_limits<T>::epsilon() * T(35),
+               c.below(10)};
     for (int i = 0; i < cut.cuts; ++i) {
         Vec3<T> const normal = direction<T>(c);
         Vec4<T> const half_space(normal, c.uniform<T>(T(0.01), T(5)) - glm::dot(normal, cut.kept));
@@ -52,8 +53,9 @@ void try_bodies(Case& c) {
     LightBasis<T> const basis = light_basis(sun.direction);
     T const margin = c.uniform<T>(T(0), T(8));
     int const size = 64 + c.below(8000);
-    LightBox<T> const box =
-        c.call([&] { return fit_rectangle(basis, cut.body, size, margin, direction<T>(c), c.number<T>()); });
+    Vec3<T> const last = direction<T>(c);
+    T const hysteresis = c.number<T>();
+    LightBox<T> const box = c.call([&] { return fit_rectangle(basis, cut.body, size, margin, last, hysteresis); });
     c.hash(&box.lo.x, 2);
     c.hash(&box.hi.x, 2);
     c.require(laws::is_a_box(box), "a rectangle has an extent");
@@ -76,7 +78,8 @@ void try_common_depths(Case& c) {
 
 template <class T>
 void try_depths(Case& c) {
-    LightBox<T> box = fit_box(light_basis(good_sun<T>(c).direction), corners(small_box<T>(c, T(20))), 256, T(2));
+    LightBasis<T> const basis = light_basis(good_sun<T>(c).direction);
+    LightBox<T> box = fit_box(basis, corners(small_box<T>(c, T(20))), 256, T(2));
     DepthRange<T> slice{box.depth_lo, box.depth_hi, true};
     Aabb<T> const casters = small_box<T>(c, T(50)), receivers = small_box<T>(c, T(50));
     bool const pancake = c.one_in(2);

@@ -44,7 +44,9 @@ void try_scroll(Case& c) {
     c.require(laws::covers_once(before, after, scroll), "each texel is kept or drawn, once");
     for (int i = 0; i < scroll.fresh.count; ++i)
         c.require(laws::wraps_once(after, scroll.fresh.at[static_cast<std::size_t>(i)]), "parts wrap once");
-    TexelGrid<T> const elsewhere = grid_window(basis, any_vector<T>(c), c.number<T>(), c.below(40) - 5);
+    Vec3<T> const place = any_vector<T>(c);
+    T const texel = c.number<T>();
+    TexelGrid<T> const elsewhere = grid_window(basis, place, texel, c.below(40) - 5);
     (void)c.call([&] { return scroll_between(elsewhere, after).kept || scroll_between(before, elsewhere).kept; });
 }
 
