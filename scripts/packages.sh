@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash disable=SC2034
 #
-# Sourced by scripts/demo, scripts/test and scripts/bench: what each needs of Debian, once, and how it gets there.
+# Sourced by scripts/demo, scripts/test, scripts/bench and scripts/engines: what each needs of Debian, once, and how it
+# gets there.
 
 demo_packages=(
     g++ cmake ninja-build
@@ -22,8 +23,14 @@ test_packages=(
     codespell gdb                                                # spelling; the pretty-printers are tried in a debugger
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery
+    doxygen                                                      # the reference has no warnings
+)
+engine_packages=(
+    libogre-1.12-dev libopenscenegraph-dev                       # the engines that shadowmath is dropped into
+    xvfb xauth                                                   # a display for them
 )
 all_packages=(
+    "${engine_packages[@]}"
     clang-19                                                     # the newest compiler
     g++-aarch64-linux-gnu qemu-user-static                       # another processor
     emscripten nodejs                                            # and WebAssembly
@@ -31,6 +38,10 @@ all_packages=(
     gcovr python3                                                # which lines the tests reach; mutants
 )
 
+docs_packages=(
+    g++ cmake ninja-build libglm-dev libpng-dev                  # the programs that draw what the pages show
+    cmark-gfm doxygen                                            # the pages, the reference
+)
 bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev libembree-dev nlohmann-json3-dev)
 
 # Installs what is missing of the packages given, or prints the line that does and fails.

@@ -227,8 +227,8 @@ TEST(BadInput, Row27AnyTriangleAddedTakesNoBitAway) {
     }
 }
 
-// Starts at any float, ends between any two boxes: what is read and written is that and no more. The neighbours are NaN,
-// which would show in a mask, and the address sanitizer sees the rest.
+// Starts at any float, ends between any two boxes: what is read and written is that and no more. The neighbours are
+// NaN, which would show in a mask, and the address sanitizer sees the rest.
 TEST(BadInput, Row28ArraysOfAnyLengthAtAnyAddressAreReadToTheirEndAndNoFurther) {
     Input<float> const in;
     auto const cascades = fit_cascades(in.view, in.sun, in.casters, in.receivers, in.cascades);

@@ -247,7 +247,8 @@ TEST(BadInput, Row16AThousandKilometresOutADoubleLosesAFewBillionthsOfATexel) {
         Vec3<double> const centre(1e6 + step * 0.37, 120.0, -1e6 + step * 0.11);
         TexelGrid<double> const grid = texel_grid(light_basis(sun.direction), {centre, 51.2}, 2048, 0.0);
         ASSERT_TRUE(grid.visible && !grid.faults.any());
-        // Texels of 5 cm, so that the offset is 3e4: its last bit is 4e-9 texels. The place of the centre by the matrix, and by the axes in long double.
+        // Texels of 5 cm, so that the offset is 3e4: its last bit is 4e-9 texels. The place of the centre by the
+        // matrix, and by the axes in long double.
         Vec4<Wide> const at =
             Mat4<Wide>(clip_from_world(grid, 0.0, 1.0, gl_zero_to_one_clip)) * Vec4<Wide>(Vec3<Wide>(centre), 1);
         Wide const by_axes = glm::dot(Vec3<Wide>(grid.basis.x), Vec3<Wide>(centre)) / grid.texel_metres - grid.x;
