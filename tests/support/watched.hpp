@@ -20,7 +20,10 @@ struct Watched {
     std::uint64_t allocations;
     int raised;  // of the flags below
 
-    [[nodiscard]] bool calm() const { return allocations == 0 && raised == 0; }
+    // For anything at all: numbers as large as the type allows may overflow, but nothing becomes of it.
+    [[nodiscard]] bool calm() const { return allocations == 0 && (raised & ~FE_OVERFLOW) == 0; }
+    // For inputs that are all in their ranges.
+    [[nodiscard]] bool calm_in_range() const { return allocations == 0 && raised == 0; }
 };
 
 template <class Call>

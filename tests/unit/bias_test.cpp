@@ -199,6 +199,24 @@ TEST(BiasFor, ALightWithoutDirectionOrAMapOfNothingGetsNoBias) {
     }
 }
 
+TEST(BiasFor, AnOptionThatIsNoNumberCountsAsNone) {
+    Overhead const overhead;
+    BiasOptions<double> odd = nothing();
+    odd.metres = odd.texels = odd.flat_texels = std::numeric_limits<double>::quiet_NaN();
+    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, odd);
+    MapBias<double> const none = bias_for(overhead.map, overhead.light, 100, nothing());
+    EXPECT_EQ(bias.constant, none.constant);
+    EXPECT_EQ(bias.per_inverse_w, none.per_inverse_w);
+    EXPECT_EQ(bias.slope_texels, none.slope_texels);
+}
+
+TEST(DepthShift, IsNeverMoreThanTheWholeDepth) {
+    Overhead const overhead;
+    EXPECT_DOUBLE_EQ(depth_shift(overhead.map, overhead.light, Vec3<double>(0), 39.0), 39.0 / 40.0);
+    EXPECT_EQ(depth_shift(overhead.map, overhead.light, Vec3<double>(0), 41.0), 1.0);
+    EXPECT_EQ(depth_shift(overhead.map, overhead.light, Vec3<double>(0), 1e300), 1.0);
+}
+
 TEST(NormalOffset, IsTheTableOfTheKernelsReachAndTheSineOfTheAngle) {
     Vec3<double> const up(0, 1, 0), low = glm::normalize(Vec3<double>(1, 1, 0));
     EXPECT_NEAR(normal_offset_metres(0.1, 1, up, low), std::sqrt(2.0) * 1.5 * 0.1 * std::sqrt(0.5), 1e-15);

@@ -113,7 +113,7 @@ TEST(Choose, GivesTheSameForTheSameAndAllocatesNothing) {
     limits.most_maps = 2;
     auto const first = test::watched([&] { return chosen.within(limits); });
     Choice<double> const second = chosen.within(limits);
-    EXPECT_TRUE(first.calm());
+    EXPECT_TRUE(first.calm_in_range());
     EXPECT_EQ(first.result.options.lambda, second.options.lambda);
     EXPECT_EQ(first.result.judgement.all.worst, second.judgement.all.worst);
 }

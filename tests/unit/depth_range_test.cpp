@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 using namespace shadowmath;
 
 template <class T>
@@ -146,4 +148,24 @@ TEST(DepthRange, StepsKeepStoredDepthFromFrameToFrame) {
         last = stored;
     }
     EXPECT_LE(changes, 2);  // ten metres of motion cross at most one multiple of 16 at either end
+}
+
+TEST(DepthRange, OfASliceOfOneDepthIsARange) {
+    LightBox<double> sides;
+    sides.lo = Vec2<double>(-5);
+    sides.hi = Vec2<double>(5);
+    Aabb<double> const box{Vec3<double>(-3), Vec3<double>(3)};
+    auto const range = depth_range(sides, DepthRange<double>{1.0, 1.0, true}, box, box, false);
+    EXPECT_TRUE(range.visible);
+    EXPECT_LE(range.lo, -3.0);
+    EXPECT_GE(range.hi, 1.0);
+    EXPECT_FALSE(depth_range(sides, DepthRange<double>{1.0, 0.9, true}, box, box, false).visible);
+}
+
+TEST(InSteps, LeavesARangeAloneOfWhichEitherEndIsBeyondWholeNumbers) {
+    for (auto const& [lo, hi] : {std::pair(-1e18, 0.5), std::pair(0.5, 1e18)}) {
+        auto const range = in_steps(DepthRange<double>{lo, hi, true}, 1.0);
+        EXPECT_EQ(range.lo, lo);
+        EXPECT_EQ(range.hi, hi);
+    }
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace shadowmath;
 
 template <class T>
@@ -103,4 +105,21 @@ TEST(Margin, NamesWhatIsWrongWithIt) {
     EXPECT_EQ(usable_texels(100, -10.0), 100.0);
     EXPECT_EQ(usable_texels(100, 1e300), 1.0);
     EXPECT_EQ(usable_texels(-5, 0.0), 1.0);
+}
+
+// Not but for a rounding: with no margin at all each corner is inside, a kilometre out and told in long double.
+TEST(FitBox, WithoutAMarginHoldsItsCornersToTheLastBit) {
+    using Wide = long double;
+    for (int i = 0; i < 200; ++i) {
+        float const turn = static_cast<float>(i) * 0.031f;
+        auto const basis = light_basis(directional(Vec3<float>(std::cos(turn), -0.4f, std::sin(turn))).direction);
+        Vec3<float> const centre(1000.0f + turn, 35.0f, -700.0f * turn);
+        auto const body = corners(Aabb<float>{centre - 7.3f, centre + 7.3f});
+        LightBox<float> const box = fit_box(basis, body, 1024, 0.0f);
+        for (Vec3<float> const& corner : body) {
+            Wide const x = glm::dot(Vec3<Wide>(box.basis.x), Vec3<Wide>(corner));
+            Wide const y = glm::dot(Vec3<Wide>(box.basis.y), Vec3<Wide>(corner));
+            EXPECT_TRUE(x >= Wide(box.lo.x) && x <= Wide(box.hi.x) && y >= Wide(box.lo.y) && y <= Wide(box.hi.y)) << i;
+        }
+    }
 }

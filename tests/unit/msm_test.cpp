@@ -65,3 +65,22 @@ TEST(Msm, OfATexelThatWasNeverWrittenDividesNothingByZero) {
         EXPECT_TRUE(solved.calm());
     }
 }
+
+// An atom at x itself and two others: what lies before x is the lower one, be x between them or at the upper one.
+TEST(Msm, MassBeforeAnAtomIsThatOfTheLowerOnes) {
+    auto const moments_of = [](double low, double high, double share_of_low) {
+        Vec4<double> sum(0.0);
+        double of_low = share_of_low, of_high = 1 - share_of_low;
+        for (int k = 0; k < 4; ++k) {
+            of_low *= low;
+            of_high *= high;
+            sum[k] = of_low + of_high;
+        }
+        return sum;
+    };
+    Vec4<double> const moments = moments_of(-0.5, 0.5, 0.25);
+    EXPECT_NEAR(detail::mass_before(moments, 0.5, -0.5, 0.5), 0.25, 1e-15);
+    EXPECT_NEAR(detail::mass_before(moments, 0.25, -0.5, 0.5), 0.25, 1e-15);
+    EXPECT_NEAR(detail::mass_before(moments, 0.75, -0.5, 0.5), 1.0, 1e-15);
+    EXPECT_EQ(detail::mass_before(moments, -0.5, -0.5, 0.5), 0.0);
+}

@@ -69,7 +69,8 @@ template <class T>
 void try_lamp(Case& c) {
     ViewVolume<T> view = good_view<T>(c);
     T const angle = c.uniform<T>(T(0.05), T(1.4)), range = c.uniform<T>(T(1), T(50));
-    Light<T> const lamp = spot(point_within<T>(c, T(10)), direction<T>(c), angle, range);
+    Vec3<T> const place = point_within<T>(c, T(10)), axis = direction<T>(c);
+    Light<T> const lamp = spot(place, axis, angle, range);
     Vec3<T> const spread = point_within<T>(c, angle * T(0.2));
     Vec3<T> const point = lamp.position + (lamp.direction + spread) * (c.uniform<T>(T(0.01), T(0.9)) * range);
     Vec3<T> const eye = point_within<T>(c, T(10));

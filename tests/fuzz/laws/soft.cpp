@@ -43,7 +43,8 @@ void try_taps(Case& c) {
     c.require(laws::is_gap(c.call([&] { return gap_of_metres(light, point, metres); })), "a gap is bounded");
     T const back = c.call([&] { return metres_of_gap(light, point, metres); });
     c.require(all_finite(&back, 1) && back >= T(0), "metres of a gap are finite");
-    Vec4<T> const place(any_vector<T>(c), c.number<T>());
+    Vec3<T> const any_place = any_vector<T>(c);
+    Vec4<T> const place(any_place, c.number<T>());
     c.require(all_finite(kernel_texels(penumbra, place, 1024, metres)), "a kernel has a size");
     for (T* const number : {&penumbra.rim_x.x, &penumbra.rim_y.w, &penumbra.depth_of_gap, &penumbra.largest_gap})
         if (c.one_in(5)) *number = c.number<T>();
@@ -53,7 +54,8 @@ void try_taps(Case& c) {
     PcssOptions<T> taps;
     taps.search_taps = c.below(12) - 1;
     taps.filter_taps = c.below(12) - 1;
-    if (c.one_in(2)) taps.turn = Vec2<T>(c.number<T>(), c.number<T>());
+    if (c.one_in(2)) taps.turn.x = c.number<T>();
+    if (c.one_in(2)) taps.turn.y = c.number<T>();
     T const depth = c.number<T>(), other = c.uniform<T>(T(0), T(1));
     auto const stored = [depth, other](int x, int y) { return (x + y) % 2 == 0 ? depth : other; };
     int const size = c.below(300) - 2;
@@ -67,8 +69,9 @@ void try_taps(Case& c) {
         c.require(all_finite(&mixed, 1) && mixed >= T(0) && mixed <= T(1), "a blend is a share of light");
     }
     T const hard = c.uniform<T>(T(0), T(1)), share = c.uniform<T>(T(0), T(1));
-    T const blend = hybrid_visibility(ExactShadow<T>{hard, c.magnitude<T>(-10, 10)},
-                                      SoftShadow<T>{share, c.magnitude<T>(-10, 10), true}, c.magnitude<T>(-10, 7));
+    ExactShadow<T> const traced{hard, c.magnitude<T>(-10, 10)};
+    SoftShadow<T> const searched{share, c.magnitude<T>(-10, 10), true};
+    T const blend = hybrid_visibility(traced, searched, c.magnitude<T>(-10, 7));
     c.require(laws::is_between(blend, hard, share, T(8) * std::numeric_limits<T>::epsilon()),
               "a blend lies between its two answers");
 }
@@ -79,7 +82,7 @@ void try_rays(Case& c) {
     ShadowMap<double> const map = sun_map(c, sun);
     Vec3<double> const point = point_within<double>(c, 100.0);
     double const radius = c.magnitude<double>(-10, -2), gap = c.magnitude<double>(-10, 3);
-    Vec2<double> const u(c.uniform<double>(-0.7, 0.7), c.uniform<double>(-0.7, 0.7));
+    Vec2<double> const u{c.uniform<double>(-0.7, 0.7), c.uniform<double>(-0.7, 0.7)};
     MapPenumbra<double> const penumbra = c.calm_call([&] { return penumbra_for(map, sun, radius); });
     Vec4<double> tap = across(penumbra, place_from_world(map) * Vec4<double>(point, 1.0), u, gap);
     tap.z -= gap * penumbra.depth_of_gap;
