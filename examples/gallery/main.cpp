@@ -70,7 +70,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->check([&](std::string const& text) {
             return parse_extent(text, settings.extent) ? "" : text + " is no size such as 960x540, 16 to 4096 a side";
         });
-    app.add_flag("--validate", settings.validate, "Vulkan under its validation layers; what they say stands in the notes");
+    app.add_flag("--validate", settings.validate,
+                 "Vulkan under its validation layers; what they say stands in the notes");
     app.add_option("--flight", settings.flight, "frames of the camera's flight through each scene (300; quick: 12)")
         ->check(CLI::Range(2, 3000));
     app.add_option("--seed", settings.seed, "of the built-in scenes")->capture_default_str();
