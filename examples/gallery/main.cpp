@@ -70,6 +70,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->check([&](std::string const& text) {
             return parse_extent(text, settings.extent) ? "" : text + " is no size such as 960x540, 16 to 4096 a side";
         });
+    app.add_flag("--validate", settings.validate,
+                 "Vulkan under its validation layers; what they say stands in the notes");
     app.add_option("--flight", settings.flight, "frames of the camera's flight through each scene (300; quick: 12)")
         ->check(CLI::Range(2, 3000));
     app.add_option("--seed", settings.seed, "of the built-in scenes")->capture_default_str();
@@ -89,7 +91,7 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
     return 2;
 }
 
-std::vector<std::unique_ptr<backend::Backend>> open_backends(std::string const& wanted) {
+std::vector<std::unique_ptr<backend::Backend>> open_backends(std::string const& wanted, bool validate) {
     std::vector<std::unique_ptr<backend::Backend>> open;
     std::string missing;
     auto const add = [&](char const* name, auto const& make) {
@@ -102,7 +104,7 @@ std::vector<std::unique_ptr<backend::Backend>> open_backends(std::string const& 
     };
     add("egl", [] { return backend::make_gl_backend(backend::GlContextKind::egl); });
     add("osmesa", [] { return backend::make_gl_backend(backend::GlContextKind::osmesa); });
-    add("vulkan", [] { return backend::make_vulkan_backend(); });
+    add("vulkan", [validate] { return backend::make_vulkan_backend({.validation = validate}); });
     if (open.empty()) throw std::runtime_error(missing);
     if (!missing.empty()) tell("left out: " + missing);
     for (auto const& backend : open) tell(backend->info().name + ": " + backend->info().driver);
@@ -159,7 +161,7 @@ int judged(Backends backends, std::vector<std::string> const& broken) {
 int make_gallery(Settings const& settings) {
     Staging staging(settings.out);
     auto const scenes = load_scenes(settings);
-    auto const backends = open_backends(settings.backend);
+    auto const backends = open_backends(settings.backend, settings.validate);
     Results const results = run(settings, scenes, backends, staging.folder(), tell);
     std::string const json = results_json(settings, scenes, backends, results);
     write_text(staging.folder() / "results.json", json);

@@ -20,6 +20,7 @@ struct Settings {
     backend::Extent extent{960, 540};
     std::uint64_t seed = 1;
     bool quick = false;
+    bool validate = false;  // Vulkan under its validation layers
 
     // Of every way to draw the maps: the first one also compiles.
     [[nodiscard]] int way_runs() const { return quick ? 1 : 2; }

@@ -84,7 +84,7 @@ std::vector<Entry> const& entries() {
         {{"sdsm", "Four maps fitted to what is seen, splits around gaps", sdsm, 1024, 4, false, true},
          false,
          sampled(SampleSplits::adaptive, false)},
-        {{"sdsm-gpu", "The same, fitted on the GPU and used there", sdsm, 1024, 4, false, true},
+        {{"sdsm-gpu", "Four maps fitted to what is seen, on the GPU", sdsm, 1024, 4, false, true},
          true,
          sampled(SampleSplits::adaptive, true)},
         {{"sdsm-still", "The same, still", sdsm, 1024, 4, false, true},

@@ -37,7 +37,7 @@ protected:
         fs::create_directory(place_);
         write("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
                           "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");
-        made_ = gallery(quick + " cube.obj cube.obj --out made");
+        made_ = gallery(quick + " --validate cube.obj cube.obj --out made");
     }
     static void TearDownTestSuite() { fs::remove_all(place_); }
 
@@ -227,6 +227,14 @@ TEST_F(Gallery, FliesThroughEachSceneUnderEveryPolicy) {
          {"stable", "tight", "rectangle", "focus", "warped", "vdsm-fallback", "sdsm", "chosen-still", "chosen"})
         EXPECT_TRUE(policies.count(policy)) << policy;
     EXPECT_EQ(results.at("flights").size(), policies.size() * results.at("scenes").size());
+}
+
+// Vulkan runs under core and synchronisation validation here.
+TEST_F(Gallery, LeavesNoDriverAndNoValidationAnythingToSay) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    for (auto const& record : results.at("records"))
+        EXPECT_EQ(record.at("note").get<std::string>().find("driver:"), std::string::npos) << record.dump();
+    EXPECT_EQ(made_.out.find("driver: "), std::string::npos) << made_.out;
 }
 
 TEST_F(Gallery, BreaksNoPromise) {
