@@ -339,11 +339,11 @@ int main(int argc, char** argv) {
                         c.lists, c.longest, double(c.nodes) / c.lists, one.strips[0].faults.bits);
             if (!embree_too) continue;
             double best = 1e30, best_one = 1e30;
-            for (auto const [quality, label] :
+            for (auto const& [quality, label] :
                  {std::pair(RTC_BUILD_QUALITY_LOW, "morton"), std::pair(RTC_BUILD_QUALITY_MEDIUM, "sah")}) {
                 double const build = embree.build(quality);
                 std::printf("  embree %s build %.1f:", label, build);
-                for (auto const [query, name] :
+                for (auto const& [query, name] :
                      {std::pair(Embree::Query::one, "1"), std::pair(Embree::Query::eight, "8"),
                       std::pair(Embree::Query::sixteen, "16"), std::pair(Embree::Query::many, "1M")}) {
                     double const ms = embree.occlusion(frame, picture, query, 32, truth);
