@@ -145,17 +145,17 @@ struct CoverKernel {
 
     void test(std::uint32_t tile, std::uint32_t pixels, Planes const& planes) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        Real const x = Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) -
-                       Real(frame.width) / Real(2);
-        Real const y = Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) -
-                       Real(frame.height) / Real(2);
+        Real const x =
+            Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2);
+        Real const y =
+            Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2);
         auto const tile_q = Real(buffer.tile_q[tile]);
         // Here large terms cancel; what is left is no more than a tile's worth.
         T here[4];
         for (int i = 0; i < 4; ++i)
             here[i] = static_cast<T>(planes.x[i] * x + planes.y[i] * y + (planes.a[i] + planes.b[i] * tile_q));
         T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        std::uint32_t pixel[lane_count];
+        std::uint32_t pixel[lane_count]{};
         std::uint32_t const count = Lanes::compress(pixels, every_lane, pixel);
         std::uint32_t const done =
             count <= 4 ? few(tile, quads, pixel, count, here, planes) : many(tile, quads, pixels, here, planes);

@@ -150,11 +150,6 @@ template <class T, class Lanes = BestLanes<T>>
     buffer.least_x = buffer.least_y = largest_number;
     buffer.most_x = buffer.most_y = buffer.most_depth = -largest_number;
 
-    T columns[lane_count], rows[lane_count];
-    for (int k = 0; k < lane_count; ++k) {
-        columns[k] = T(k % tile_side);
-        rows[k] = T(k / tile_side);
-    }
     Vec4<T> const* const row = buffer.row;
     detail::TileKernel<Lanes> const kernel{buffer,
                                            receivers,
@@ -162,8 +157,8 @@ template <class T, class Lanes = BestLanes<T>>
                                             detail::plane_of_row(frame, row[2]), detail::plane_of_row(frame, row[3])},
                                            grid.w_min > T(0) ? grid.w_min : T(0),
                                            detail::turn_limit(frame),
-                                           Lanes::load(columns),
-                                           Lanes::load(rows),
+                                           Lanes::load(detail::tile_columns<T>),
+                                           Lanes::load(detail::tile_rows<T>),
                                            flat,
                                            Vec3<T>(row[3]) == Vec3<T>(T(0)) && row[3].w == T(1)};
     Lanes const huge = Lanes::all(largest_number), low = Lanes::all(-largest_number);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sixteen numbers at once, as an array: for any scalar type and machine, and the twin that lanes in registers must agree
-// with. What an operation means is said here.
+// Sixteen numbers at once, as an array: for any scalar type and machine, and the twin that lanes in registers must
+// agree with. What an operation means is said here.
 //
 // A fused operation rounds once or twice, as the machine has it; negating an operand negates the result in any case.
 #pragma once
@@ -26,6 +26,16 @@ template <>
 struct WiderThan<float> {
     using Type = double;
 };
+
+[[nodiscard]] inline int lowest_bit(std::uint32_t bits) noexcept {
+#if defined(__GNUC__)
+    return __builtin_ctz(bits);
+#else
+    int place = 0;
+    while ((bits >> place & 1u) == 0) ++place;
+    return place;
+#endif
+}
 
 // Keys are numbers that are only compared: within a byte each, so that sixteen are compared at once. NaN is the last.
 template <class T>
@@ -114,10 +124,7 @@ struct PlainLanes {
     // sixteen in all, may be anything. Gives how many.
     static std::uint32_t compress(std::uint32_t bits, std::uint32_t const* from, std::uint32_t* to) noexcept {
         std::uint32_t count = 0;
-        for (std::uint32_t k = 0; k < lane_count; ++k) {
-            to[count] = from[k];
-            count += bits >> k & 1u;
-        }
+        for (; bits != 0; bits &= bits - 1) to[count++] = from[detail::lowest_bit(bits)];
         return count;
     }
     // Lane 4 j + i: row[j][i].

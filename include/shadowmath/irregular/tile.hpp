@@ -4,8 +4,8 @@
 // is listed by.
 //
 // The bounds of a pixel are five keys, (lo x, -hi x, lo y, -hi y, -far depth). A caster with the keys (hi x, -lo x,
-// hi y, -lo y, -near depth) can take light from it only if none of its keys is less. The pixels' keys are kept in a byte
-// each, from 0 to 255 over the tile, rounded by the same monotone formula as the caster's: none is missed.
+// hi y, -lo y, -near depth) can take light from it only if none of its keys is less. The pixels' keys are kept in a
+// byte each, from 0 to 255 over the tile, rounded by the same monotone formula as the caster's: none is missed.
 #pragma once
 
 #include <shadowmath/config.hpp>
@@ -56,7 +56,7 @@ struct TileKernel {
             at[j] = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(column);
         if (columns >= tile_side && normal_stride == 3 && (!placed || position_stride == 3)) {
-            auto const from = [&at](T const* array, std::size_t stride, T const* (&row_of)[tile_side]) {
+            auto const from = [&at](T const* array, std::size_t stride, T const*(&row_of)[tile_side]) {
                 for (int j = 0; j < tile_side; ++j) row_of[j] = array + at[j] * stride;
             };
             T const* row_of[tile_side];

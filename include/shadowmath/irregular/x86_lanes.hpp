@@ -119,9 +119,7 @@ struct Avx512Lanes {
     friend Avx512Lanes chosen(std::uint32_t bits, Avx512Lanes a, Avx512Lanes b) noexcept {
         return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.lanes, a.lanes)};
     }
-    [[nodiscard]] static Avx512Lanes rows(float const* const (&row)[4]) noexcept {
-        return {four_of(row, 0)};
-    }
+    [[nodiscard]] static Avx512Lanes rows(float const* const (&row)[4]) noexcept { return {four_of(row, 0)}; }
     static void triples(float const* const (&row)[4], Avx512Lanes (&components)[3]) noexcept {
         __m512 const a = four_of(row, 0), b = four_of(row, 4), c = four_of(row, 8);  // xyzx yzxy zxyz
         __m512 const x = _mm512_shuffle_ps(b, c, _MM_SHUFFLE(1, 1, 2, 2));
@@ -151,9 +149,9 @@ struct Avx512Lanes {
         // The second operand where the first is NaN.
         __m256i const bound = _mm256_cvttps_epi32(_mm256_min_ps(value, _mm256_set1_ps(255.0f)));
         unsigned const beyond = _mm256_cmp_ps_mask(value, _mm256_setzero_ps(), _CMP_LT_OQ) & 0x1fu;
-        __m512i const each = _mm512_set_epi32(0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x08080808, 0x08080808,
-                                              0x08080808, 0x08080808, 0x04040404, 0x04040404, 0x04040404, 0x04040404, 0,
-                                              0, 0, 0);
+        __m512i const each =
+            _mm512_set_epi32(0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x08080808, 0x08080808, 0x08080808,
+                             0x08080808, 0x04040404, 0x04040404, 0x04040404, 0x04040404, 0, 0, 0, 0);
         __m512i const bounds = _mm512_shuffle_epi8(_mm512_broadcast_i32x4(_mm256_castsi256_si128(bound)), each);
         __m128i const last = _mm_shuffle_epi8(_mm256_extracti128_si256(bound, 1), _mm_setzero_si128());
         std::uint64_t const four = _mm512_cmple_epu8_mask(_mm512_loadu_si512(bytes), bounds);
@@ -165,14 +163,14 @@ struct Avx512Lanes {
 private:
     // Four numbers of each row.
     [[nodiscard]] static __m512 four_of(float const* const (&row)[4], int first) noexcept {
-        __m256 const low = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[0] + first)),
-                                                _mm_loadu_ps(row[1] + first), 1);
-        __m256 const high = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[2] + first)),
-                                                 _mm_loadu_ps(row[3] + first), 1);
-        return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+        __m256 const low =
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[0] + first)), _mm_loadu_ps(row[1] + first), 1);
+        __m256 const high =
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[2] + first)), _mm_loadu_ps(row[3] + first), 1);
+        return _mm512_castpd_ps(
+            _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
     }
 };
-
 
 #endif
 
@@ -280,8 +278,8 @@ struct Avx2Lanes {
         };
         __m256i const shorts = _mm256_packs_epi32(inside(first), inside(second));
         __m256i const ordered = _mm256_permute4x64_epi64(shorts, 0xd8);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_packus_epi16(_mm256_castsi256_si128(ordered),
-                                                                           _mm256_extracti128_si256(ordered, 1)));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
+                         _mm_packus_epi16(_mm256_castsi256_si128(ordered), _mm256_extracti128_si256(ordered, 1)));
     }
     [[nodiscard]] static std::uint32_t reached(float const* keys, float const* base, float const* gain,
                                                unsigned char const* bytes, unsigned char const* more) noexcept {
@@ -297,10 +295,10 @@ struct Avx2Lanes {
                 _mm256_movemask_epi8(_mm256_cmpeq_epi8(_mm256_max_epu8(here, limit), limit)));
         };
         __m256i const x = _mm256_setr_epi64x(0, 0, 0x0404040404040404, 0x0404040404040404);
-        __m256i const y = _mm256_setr_epi64x(0x0808080808080808, 0x0808080808080808, 0x0c0c0c0c0c0c0c0c,
-                                             0x0c0c0c0c0c0c0c0c);
-        std::uint32_t const two = at_most(bytes, _mm256_shuffle_epi8(four, x)) &
-                                  at_most(bytes + 32, _mm256_shuffle_epi8(four, y));
+        __m256i const y =
+            _mm256_setr_epi64x(0x0808080808080808, 0x0808080808080808, 0x0c0c0c0c0c0c0c0c, 0x0c0c0c0c0c0c0c0c);
+        std::uint32_t const two =
+            at_most(bytes, _mm256_shuffle_epi8(four, x)) & at_most(bytes + 32, _mm256_shuffle_epi8(four, y));
         __m128i const last = _mm_shuffle_epi8(_mm256_extracti128_si256(bound, 1), _mm_setzero_si128());
         __m128i const here = _mm_loadu_si128(reinterpret_cast<__m128i const*>(more));
         auto const fifth =
