@@ -11,8 +11,14 @@
 // Use it where shadows must be right to the pixel; on a CPU it is faster than ray tracing as long as every pixel is
 // wanted. For a few points, or soft shadows, trace rays instead.
 //
-// Source: Wyman, Hoetzlein and Lefohn, TVCG 22(10) 2016. Departures: tiles of 4 x 4 pixels are tested at once, against
-// all four planes before any sample; triangles are clipped only to find their texels.
+// Source: Wyman, Hoetzlein and Lefohn, TVCG 22(10) 2016. Departures: tiles of 4 x 4 pixels are tested at once, first by
+// bounds of a byte each, then against all four planes before any sample; triangles are clipped only to find their
+// texels.
+//
+// Against ray tracing (bench/irregular.cpp): the whole frame takes a fifth of Embree's best at 100 thousand triangles,
+// a quarter at a million, and less than Embree's with one ray a pixel. Where the time goes at a million: half to pairs
+// of a triangle and a tile, nine in ten of which end without a sample darkened; a sixth each to loading triangles and
+// to finding their lists.
 #pragma once
 
 #include <shadowmath/config.hpp>
