@@ -2,9 +2,8 @@
 //
 // What the irregular z-buffer is made of, and the storage that holds it: plain arrays of the caller's.
 //
-// Memory, in floats, with the capacity that storage_for takes by itself: 51 bytes a pixel, 29 a texel of the grid, 1 MiB
-// for sorting triangles; nothing for each triangle. A capacity that is known from the frame before spares 10 to 20 of
-// the 51.
+// Memory, in floats, with the capacity that storage_for takes by itself: 51 bytes a pixel, 29 a texel of the grid, 1
+// MiB for sorting triangles; nothing for each triangle. A capacity known from the frame before spares a fifth of it.
 #pragma once
 
 #include <shadowmath/config.hpp>
