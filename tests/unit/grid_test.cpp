@@ -155,17 +155,3 @@ TEST_F(Listing, TakesTheMapOfASunAHairOffAnAxis) {
             EXPECT_FALSE(list(sun_map(noon, V(0, 0, 0), 8.0f), 16, size, noon).faults.any()) << hair << ", " << axis;
         }
 }
-
-TEST(StorageFor, IsNothingForNoPictureAndGrowsWithEverything) {
-    EXPECT_EQ(storage_for(0, 10, 16).scalars, 0u);
-    EXPECT_EQ(storage_for(10, 10, 0).words, 0u);
-    StorageSize const least = storage_for(64, 64, 16);
-    for (StorageSize const more :
-         {storage_for(128, 64, 16), storage_for(64, 128, 16), storage_for(64, 64, 64), storage_for(64, 64, 16, 4096)}) {
-        EXPECT_GT(more.scalars, least.scalars);
-        EXPECT_GT(more.words, least.words);
-    }
-    // Bytes a pixel; nothing for a triangle.
-    StorageSize const whole = storage_for(1280, 720, 128);
-    EXPECT_LE(static_cast<double>(4 * (whole.scalars + whole.words)) / (1280.0 * 720.0), 43.0);
-}

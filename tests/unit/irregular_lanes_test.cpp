@@ -88,6 +88,69 @@ TYPED_TEST(AnyLanes, CompressWordsInOrder) {
     }
 }
 
+TYPED_TEST(AnyLanes, GatherRowsAndComponentsOfTiles) {
+    using T = typename TypeParam::Scalar;
+    std::array<T, 64> numbers_of;
+    for (std::size_t i = 0; i < 64; ++i) numbers_of[i] = static_cast<T>(i);
+    T const* const row[4] = {&numbers_of[0], &numbers_of[13], &numbers_of[27], &numbers_of[52]};
+    TypeParam components[3];
+    TypeParam::triples(row, components);
+    auto const lone = numbers(TypeParam::rows(row));
+    for (std::size_t k = 0; k < 16; ++k) {
+        EXPECT_EQ(lone[k], row[k / 4][k % 4]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            EXPECT_EQ(numbers(components[axis])[k], row[k / 4][3 * (k % 4) + axis]);
+    }
+}
+
+TYPED_TEST(AnyLanes, PickFourOfSixteenAndSpreadFour) {
+    using T = typename TypeParam::Scalar;
+    std::array<std::uint32_t, 4> const places{3, 15, 0, 8};
+    auto const picked = numbers(TypeParam::picked(some<T>.data(), places.data()));
+    auto const spread = numbers(TypeParam::quadrupled(some<T>.data()));
+    for (std::size_t k = 0; k < 16; ++k) {
+        EXPECT_EQ(picked[k], some<T>[places[k % 4]]);
+        EXPECT_EQ(spread[k], some<T>[k / 4]);
+    }
+}
+
+TYPED_TEST(AnyLanes, StoreBytesWithoutFractionsFrom0To255) {
+    using T = typename TypeParam::Scalar;
+    std::array<T, 16> const values{0,  1,       T(1.99), T(254.5), 255, T(255.5), 300, T(1e9),
+                                   -1, T(-0.5), 17,      3,        99,  128,      127, 200};
+    std::array<unsigned char, 18> bytes;
+    bytes.fill(77);
+    TypeParam::load(values.data()).store_bytes(bytes.data() + 1);
+    std::array<unsigned char, 18> const wanted{77, 0, 1,  1, 254, 255, 255, 255, 255,
+                                               0,  0, 17, 3, 99,  128, 127, 200, 77};
+    EXPECT_EQ(bytes, wanted);
+}
+
+TYPED_TEST(AnyLanes, ReachTheBytesThatTheKeysReach) {
+    using T = typename TypeParam::Scalar;
+    std::array<T, 8> const base{0, -2, 10, 0, 5, 0, 0, 0}, gain{1, 2, 1, 1, 1, 0, 0, 0};
+    std::array<unsigned char, 64> bytes{};
+    std::array<unsigned char, 16> more{};
+    for (std::size_t k = 0; k < 16; ++k) {
+        bytes[k] = static_cast<unsigned char>(10 * k);
+        bytes[16 + k] = static_cast<unsigned char>(200 - 10 * k);
+        more[k] = k == 9 ? 255 : 0;
+    }
+    auto const reached = [&](T key0, T key1, T key4) {
+        std::array<T, 8> const keys{key0, key1, 10, 0, key4, 0, 0, 0};
+        return TypeParam::reached(keys.data(), base.data(), gain.data(), bytes.data(), more.data());
+    };
+    // Byte k of the first is at most 115 for k <= 11, of the second at most 2 (48 + 2) = 100 for k >= 10.
+    EXPECT_EQ(reached(T(115.9), T(48), T(1000)), 0x0c00u);
+    EXPECT_EQ(reached(T(115.9), T(300), T(1000)), 0x0fffu);
+    EXPECT_EQ(reached(T(115.9), T(300), T(100)), 0x0dffu) << "pixel 9 lies beyond";
+    EXPECT_EQ(reached(T(0), T(300), T(1000)), 1u);
+    EXPECT_EQ(reached(T(-0.001), T(300), T(1000)), 0u) << "less than the least of them";
+    EXPECT_EQ(reached(T(115.9), T(300), T(4.9)), 0u);
+    T const nan = std::numeric_limits<T>::quiet_NaN();
+    EXPECT_EQ(reached(nan, nan, nan), 0xffffu) << "what is not known reaches all";
+}
+
 TEST(Lanes, AreAtLeastPlainAndWidenWhereFloatsCancel) {
     EXPECT_EQ(sizeof(BestLanes<float>::Scalar), sizeof(float));
     EXPECT_EQ(sizeof(Wider<float>), sizeof(double));

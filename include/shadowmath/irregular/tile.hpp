@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile of 4 x 4 pixels as the light sees it: the quads of its pixels, their bounds in the grid, and the nodes that it
+// is listed by.
+//
+// The bounds of a pixel are five keys, (lo x, -hi x, lo y, -hi y, -far depth). A caster with the keys (hi x, -lo x,
+// hi y, -lo y, -near depth) can take light from it only if none of its keys is less. The pixels' keys are kept in a
+// byte each, from 0 to 255 over the tile, rounded by the same monotone formula as the caster's: none is missed.
+#pragma once
+
+#include <shadowmath/config.hpp>
+#include <shadowmath/irregular/buffer.hpp>
+#include <shadowmath/irregular/lanes.hpp>
+#include <shadowmath/irregular/lists.hpp>
+#include <shadowmath/irregular/microquad.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace shadowmath {
+inline namespace v0 {
+
+namespace detail {
+
+// Sixteen pixels of the picture: their quads, whether light may reach them, and where the light sees them.
+template <class Lanes, class T = typename Lanes::Scalar>
+struct TileKernel {
+    IrregularBuffer<T>& buffer;
+    Receivers<T> const& receivers;
+    PixelPlane<T> plane[4];  // the rows of the map
+    T w_min;
+    T turn;
+    Lanes column_in_tile, row_in_tile;
+    bool flat, affine;
+
+    struct Seen {
+        std::uint32_t alive = 0;
+        std::uint32_t away = 0;
+        Lanes lo_x, hi_x, lo_y, hi_y, depth, lo_w, hi_w;
+    };
+
+    struct Surface {
+        Lanes normal[3];
+        Lanes place[3];  // relative to the eye; or the depth alone
+    };
+
+    // Rows of a tile that lies within the part of the picture, or copies of its edge where it does not.
+    void gather(int column, int row, Surface& surface) const noexcept {
+        PixelFrame<T> const& frame = buffer.frame;
+        auto const normal_stride = static_cast<std::size_t>(receivers.normal_stride);
+        auto const position_stride = static_cast<std::size_t>(receivers.position_stride);
+        bool const placed = receivers.position != nullptr;
+        int const columns = buffer.rect.x + buffer.rect.width - column, rows = buffer.rect.y + buffer.rect.height - row;
+        std::size_t at[tile_side];
+        for (int j = 0; j < tile_side; ++j)
+            at[j] = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
+                    static_cast<std::size_t>(column);
+        if (columns >= tile_side && normal_stride == 3 && (!placed || position_stride == 3)) {
+            auto const from = [&at](T const* array, std::size_t stride, T const*(&row_of)[tile_side]) {
+                for (int j = 0; j < tile_side; ++j) row_of[j] = array + at[j] * stride;
+            };
+            T const* row_of[tile_side];
+            from(receivers.normal, 3, row_of);
+            Lanes::triples(row_of, surface.normal);
+            from(placed ? receivers.position : receivers.depth, placed ? 3 : 1, row_of);
+            if (placed)
+                Lanes::triples(row_of, surface.place);
+            else
+                surface.place[0] = Lanes::rows(row_of);
+        } else {
+            T in[6][lane_count]{};
+            for (int k = 0; k < lane_count; ++k) {
+                int const i = k % tile_side;
+                std::size_t const pixel = at[k / tile_side] + static_cast<std::size_t>(i < columns ? i : 0);
+                for (int axis = 0; axis < 3; ++axis) {
+                    auto const offset = static_cast<std::size_t>(axis);
+                    in[axis][k] = receivers.normal[pixel * normal_stride + offset];
+                    if (placed) in[3 + axis][k] = receivers.position[pixel * position_stride + offset];
+                }
+                if (!placed) in[3][k] = receivers.depth[pixel];
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                surface.normal[axis] = Lanes::load(in[axis]);
+                surface.place[axis] = Lanes::load(in[3 + axis]);
+            }
+        }
+        if (placed)
+            for (int axis = 0; axis < 3; ++axis)
+                surface.place[axis] = surface.place[axis] - Lanes::all(frame.eye[axis]);
+    }
+
+    [[nodiscard]] static T middle_of(std::uint32_t part, Lanes const& q) noexcept {
+        if (part == 0) return T(0);
+        T lane[lane_count];
+        q.store(lane);
+        return lane[lowest_bit(part)];
+    }
+
+    [[nodiscard]] static std::uint32_t lanes_inside(int columns, int rows) noexcept {
+        std::uint32_t const in_row = columns < tile_side ? (1u << columns) - 1u : 0xfu;
+        std::uint32_t inside = 0;
+        for (int j = 0; j < tile_side && j < rows; ++j) inside |= in_row << tile_side * j;
+        return inside;
+    }
+
+    void see(int tile, int column, int row, Seen& seen) const noexcept {
+        PixelFrame<T> const& frame = buffer.frame;
+        auto const all = [](T value) { return Lanes::all(value); };
+        Surface surface;
+        gather(column, row, surface);
+        Lanes const zero = all(T(0)), one = all(T(1)), half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min());
+        Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
+        Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
+        Lanes const(&m)[3] = surface.normal;
+        auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
+            return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
+        };
+        Lanes const depth = receivers.position != nullptr ? dot(frame.to_inward, surface.place) : surface.place[0];
+        Lanes const nx = dot(frame.across, m), ny = dot(frame.upward, m), nz = dot(frame.inward, m);
+
+        // The quad; see micro_quad, of which these are the lanes.
+        Lanes const toward_middle = flat ? nz : fused(nx, x + half, fused(ny, y + half, nz));
+        Lanes const facing = flat ? zero - nz : toward_middle;
+        Lanes const steep = (absolute(nx) + absolute(ny)) * all(turn);
+        Lanes const divisor = with_sign_of(most(absolute(facing), steep), facing);
+        // A comparison with NaN is false.
+        Lanes const largest_number = all(std::numeric_limits<T>::max());
+        std::uint32_t sound = at_least(absolute(divisor), tiny);
+        if (!flat) sound &= at_least(depth, tiny);
+        Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
+        Lanes const q_x = nx * scale, q_y = ny * scale;
+        Lanes const middle = flat ? depth : divisor * scale, to_corner = (q_x + q_y) * half;
+        Lanes const q = middle - to_corner;
+        sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
+        sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
+        seen.alive = seen.away = 0;
+        if (sound == 0) return;
+
+        // Light and eye on the same side?
+        Lanes travel =
+            fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
+        if (!buffer.light.parallel)
+            travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
+        Lanes const under = zero - tiny;
+        std::uint32_t const lit = (at_least(travel, tiny) & at_least(toward_middle, tiny)) |
+                                  (at_least(under, travel) & at_least(under, toward_middle));
+        seen.away = sound & ~lit;
+        sound &= lit;
+        if (sound == 0) return;
+
+        // The four corners as the light sees them. Before an eye of perspective, values are over the depth.
+        Lanes at[4], gain_x[4], gain_y[4];
+        for (int i = 0; i < 4; ++i) {
+            PixelPlane<T> const& p = plane[i];
+            at[i] = fused(all(p.x), x, fused(all(p.y), y, fused(all(p.b), q, all(p.a))));
+            gain_x[i] = fused(all(p.b), q_x, all(p.x));
+            gain_y[i] = fused(all(p.b), q_y, all(p.y));
+        }
+        Lanes steepest = zero;
+        for (int corner = 0; corner < 4; ++corner) {
+            Lanes value[4], q_here = q;
+            for (int i = 0; i < 4; ++i) {
+                value[i] = (corner & 1) != 0 ? at[i] + gain_x[i] : at[i];
+                if ((corner & 2) != 0) value[i] = value[i] + gain_y[i];
+            }
+            if ((corner & 1) != 0) q_here = q_here + q_x;
+            if ((corner & 2) != 0) q_here = q_here + q_y;
+            sound &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
+            Lanes const inverse = reciprocal(chosen(sound, value[3], one));
+            Lanes const tx = value[0] * inverse, ty = value[1] * inverse, tz = value[2] * inverse;
+            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(sound, q_here, one));
+            seen.lo_x = corner == 0 ? tx : least(seen.lo_x, tx);
+            seen.hi_x = corner == 0 ? tx : most(seen.hi_x, tx);
+            seen.lo_y = corner == 0 ? ty : least(seen.lo_y, ty);
+            seen.hi_y = corner == 0 ? ty : most(seen.hi_y, ty);
+            seen.depth = corner == 0 ? tz : most(seen.depth, tz);
+            seen.lo_w = corner == 0 ? w : least(seen.lo_w, w);
+            seen.hi_w = corner == 0 ? w : most(seen.hi_w, w);
+            steepest = most(steepest, inverse);
+        }
+        // What rounding may add, so that no triangle misses a texel.
+        Lanes const ray = all(buffer.contact_ray);
+        Lanes const reach = flat ? all(buffer.contact_reach) + absolute(q) + absolute(q_x) + absolute(q_y) : ray;
+        Lanes const here = flat ? one : absolute(q) + absolute(q_x) + absolute(q_y);
+        auto const error = [&](T each_metre, T anywhere) {
+            return steepest * fused(reach, all(each_metre), here * all(anywhere));
+        };
+        Lanes const pad = error(buffer.texel_error, buffer.texel_error_here) + all(T(1) / T(128));
+        seen.lo_x = seen.lo_x - pad;
+        seen.hi_x = seen.hi_x + pad;
+        seen.lo_y = seen.lo_y - pad;
+        seen.hi_y = seen.hi_y + pad;
+        seen.depth = seen.depth + error(buffer.depth_error, buffer.depth_error_here);
+        Lanes const span = absolute(seen.lo_x) + absolute(seen.hi_x) + absolute(seen.lo_y) + absolute(seen.hi_y);
+        seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
+
+        keep_bounds(tile, seen);
+        T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+        // The division once more, without its rounding.
+        T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
+        T rest[lane_count];
+        (flat ? middle : chosen(seen.alive, depth, one)).store(rest);
+        for (T& r : rest) r = static_cast<T>((flat ? Wider<T>(r) : Wider<T>(1) / Wider<T>(r)) - Wider<T>(tile_q));
+        Lanes const exact = Lanes::load(rest);
+        chosen(seen.alive, exact - to_corner, zero).store(quads);
+        chosen(seen.alive, q_x, zero).store(quads + lane_count);
+        chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
+    }
+
+    void keep_bounds(int tile, Seen const& seen) const noexcept {
+        Lanes const zero = Lanes::all(T(0)), huge = Lanes::all(std::numeric_limits<T>::max());
+        Lanes const keys[5] = {seen.lo_x, zero - seen.hi_x, seen.lo_y, zero - seen.hi_y, zero - seen.depth};
+        auto const index = static_cast<std::size_t>(tile);
+        T* const base = buffer.range + index * lane_count;
+        T* const gain = base + lane_count / 2;
+        auto* const bounds = reinterpret_cast<unsigned char*>(buffer.bounds + index * lane_count);
+        auto* const beyond = reinterpret_cast<unsigned char*>(buffer.beyond + index * lane_count / 4);
+        for (int i = 0; i < lane_count; ++i) base[i] = T(0);
+        for (int i = 0; i < 5; ++i) {
+            base[i] = smallest(chosen(seen.alive, keys[i], huge));
+            T const span = largest(chosen(seen.alive, keys[i], zero - huge)) - base[i];
+            // No range to speak of: all bytes are 0, and no caster's is less.
+            bool const ranged = span > T(1e-30) && span < T(1e30);
+            if (ranged) gain[i] = T(255) / span;
+            Lanes const places = (keys[i] - Lanes::all(base[i])) * Lanes::all(gain[i]);
+            chosen(ranged ? seen.alive : 0u, places, zero).store_bytes(i < 4 ? bounds + i * lane_count : beyond);
+        }
+    }
+
+    // The pixels of `part` as one node, or as several if they lie far apart for what each of them covers.
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part,
+                int pixels_across) const noexcept {
+        if (part == 0) return;
+        Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
+        Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
+        T const bounds[5] = {smallest(chosen(part, seen.lo_x, huge)), largest(chosen(part, seen.hi_x, low)),
+                             smallest(chosen(part, seen.lo_y, huge)), largest(chosen(part, seen.hi_y, low)),
+                             largest(chosen(part, seen.depth, low))};
+        if (pixels_across > 1) {
+            T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
+            T const extent = width > height ? width : height;
+            if (extent > T(1)) {
+                Lanes const each = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
+                if (extent > largest(chosen(part, each, low)) * T(2 * pixels_across)) {
+                    if (pixels_across == tile_side)
+                        for (std::uint32_t const quarter : {0x0033u, 0x00ccu, 0x3300u, 0xcc00u})
+                            insert(parts, tile, seen, part & quarter, 2);
+                    else
+                        for (; part != 0; part &= part - 1) insert(parts, tile, seen, part & (~part + 1), 1);
+                    return;
+                }
+            }
+        }
+        IrregularBuffer<T>& b = buffer;
+        b.least_x = bounds[0] < b.least_x ? bounds[0] : b.least_x;
+        b.most_x = bounds[1] > b.most_x ? bounds[1] : b.most_x;
+        b.least_y = bounds[2] < b.least_y ? bounds[2] : b.least_y;
+        b.most_y = bounds[3] > b.most_y ? bounds[3] : b.most_y;
+        b.most_depth = bounds[4] > b.most_depth ? bounds[4] : b.most_depth;
+        add_part(buffer, parts, tile, bounds);
+    }
+};
+
+}  // namespace detail
+
+}  // namespace v0
+}  // namespace shadowmath
