@@ -49,7 +49,7 @@ public:
                 {"lispsm", "LightSpacePerspectiveShadowMapCB", 1},
                 {"vdsm", "ViewDependentShadowMap", 1},
                 {"focus", "shadowmath, focused map", 1, true, "minimal-cull"},
-                {"warped", "shadowmath, warped map", 1, true, "lispsm"}};
+                {"warped", "shadowmath, warped map", 1, true}};
     }
 
     void load(backend::Scene const& scene) override {
