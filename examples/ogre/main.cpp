@@ -146,7 +146,7 @@ public:
             for (std::size_t i = 0; i < std::size_t(set_up.maps); ++i)
                 aimed.setup->getShadowCamera(scene_, camera_, target.viewport(), sun_, shadow_cameras[i], i);
         });
-        // A set-up that leaves the cameras as they are (PlaneOptimal does at times) must not profit from the last one's.
+        // A set-up that leaves the cameras as they are (PlaneOptimal does at times) must not profit from the last.
         for (Ogre::Camera* const camera : shadow_cameras) to_ogre::aim(*camera, ShadowMap<float>{});
         scene_->setShadowCameraSetup(Ogre::DefaultShadowCameraSetup::create());
         return drawn;

@@ -6,11 +6,11 @@
 //     scene_manager->setShadowTextureCountPerLightType(Ogre::Light::LT_DIRECTIONAL, options.count);
 //     scene_manager->setShadowCameraSetup(setup);
 //
-// It takes the place of PSSMShadowCameraSetup. Materials stay as they are: `texture_viewproj_matrix` gives the matrices,
+// In place of PSSMShadowCameraSetup. Materials stay as they are: `texture_viewproj_matrix` gives the matrices,
 // `split_ends` what an integrated PSSM material calls its split points. Spot lights are served too, with one map.
 //
 // OGRE asks for one shadow camera after the other; all are fitted when it asks for the first. What it hands over is in
-// the convention of OpenGL, whatever it renders with, and so must be what it gets back: CascadeOptions::clip stays gl_clip.
+// the convention of OpenGL, whatever it renders with, and so must be what it gets: CascadeOptions::clip stays gl_clip.
 #pragma once
 
 #include <shadowmath/cascades.hpp>
@@ -70,8 +70,8 @@ struct Bounds {
 };
 
 // Of all below a node, in view or not: what the eye does not see may shadow what it does. (The node's own box is of no
-// use: cameras hang in the scene too, and theirs are as large as what they see. Nor is the box that OGRE keeps of what is
-// visible: when shadow cameras are aimed it is that of the last frame.)
+// use: cameras hang in the scene too, and theirs are as large as what they see. Nor is the box that OGRE keeps of what
+// is visible: when shadow cameras are aimed it is that of the last frame.)
 inline void add(Bounds& bounds, Ogre::SceneNode const& node) {
     constexpr auto no_bodies = Ogre::SceneManager::FRUSTUM_TYPE_MASK | Ogre::SceneManager::LIGHT_TYPE_MASK;
     for (Ogre::MovableObject const* object : node.getAttachedObjects()) {
@@ -150,7 +150,7 @@ private:
 };
 
 // In place of PlaneOptimalShadowCameraSetup: texels as the eye sees them, on one plane. The first map is exact there;
-// a second one, if the scene manager has two a light, is fitted to everything in view, for what the first does not hold.
+// a second one, if the scene manager has two a light, is fitted to all that is in view, for what the first does not hold.
 class ShadowmathPlaneSetup : public Ogre::ShadowCameraSetup {
 public:
     ShadowmathPlaneSetup(Ogre::Plane const& plane, int map_size)
