@@ -150,7 +150,7 @@ private:
 };
 
 // In place of PlaneOptimalShadowCameraSetup: texels as the eye sees them, on one plane. The first map is exact there;
-// a second one, if the scene manager has two a light, is fitted to all that is in view, for what the first does not hold.
+// a second one, if the scene manager has two a light, is fitted to all in view, for what the first does not hold.
 class ShadowmathPlaneSetup : public Ogre::ShadowCameraSetup {
 public:
     ShadowmathPlaneSetup(Ogre::Plane const& plane, int map_size)
