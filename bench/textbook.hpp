@@ -153,20 +153,56 @@ inline Box region(glm::mat4 const& m, std::span<Box const> boxes, float w_min) {
     return bounds;
 }
 
-// The thesis' vertex shader: slide the vertex onto the plane, look at that from the eye, and take the light's depth.
+// The vertex program of the thesis (3.1.3), line by line: to the world; to the light's clip space; along the light onto
+// the plane; from there to the eye's clip space; and the light's z in the place of the eye's.
 struct ThesisMap {
+    glm::mat4 world, light_view, light_projection, eye_view, eye_projection;
     glm::vec3 light;
     glm::vec4 plane;
-    glm::mat4 clip_from_world;
-    glm::mat4 light_clip_from_world;
 };
 
+inline glm::vec4 vertex(ThesisMap const& map, glm::vec3 const& p_object) {
+    glm::vec4 const p_world = map.world * glm::vec4(p_object, 1.0f);
+    glm::vec4 const p_light = map.light_projection * (map.light_view * p_world);
+    glm::vec3 const p = glm::vec3(p_world), normal = glm::vec3(map.plane);
+    glm::vec3 const q = p - map.light * ((glm::dot(p, normal) + map.plane.w) / glm::dot(map.light, normal));
+    glm::vec4 const q_eye = map.eye_projection * (map.eye_view * glm::vec4(q, 1.0f));
+    return glm::vec4(q_eye.x, q_eye.y, p_light.z, q_eye.w);
+}
+
+// A program that is run once a vertex, as vertex programs are.
+[[gnu::noinline]] inline glm::vec4 vertex_program(ThesisMap const& map, glm::vec3 const& p_object) {
+    return vertex(map, p_object);
+}
+
 inline void vertices(ThesisMap const& map, std::span<glm::vec3 const> points, std::span<glm::vec4> clip) {
+    for (std::size_t i = 0; i < points.size(); ++i) clip[i] = vertex_program(map, points[i]);
+}
+
+// One loop with all of it inside: at -O3 compilers take several vertices at once.
+struct ThesisLoop : ThesisMap {};
+
+inline void vertices(ThesisLoop const& map, std::span<glm::vec3 const> points, std::span<glm::vec4> clip) {
+    for (std::size_t i = 0; i < points.size(); ++i) clip[i] = vertex(map, points[i]);
+}
+
+// The same loop with what does not change from vertex to vertex multiplied beforehand, and no world matrix.
+struct FoldedThesisMap {
+    glm::mat4 light_clip_from_world, eye_clip_from_world;
+    glm::vec3 light;
+    glm::vec4 plane;
+};
+
+inline FoldedThesisMap folded(ThesisMap const& map) {
+    return {map.light_projection * map.light_view, map.eye_projection * map.eye_view, map.light, map.plane};
+}
+
+inline void vertices(FoldedThesisMap const& map, std::span<glm::vec3 const> points, std::span<glm::vec4> clip) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         glm::vec3 const& p = points[i];
         float const height = glm::dot(glm::vec3(map.plane), p) + map.plane.w;
         glm::vec3 const on_plane = p - map.light * (height / glm::dot(glm::vec3(map.plane), map.light));
-        glm::vec4 const seen = map.clip_from_world * glm::vec4(on_plane, 1.0f);
+        glm::vec4 const seen = map.eye_clip_from_world * glm::vec4(on_plane, 1.0f);
         glm::vec4 const lit = map.light_clip_from_world * glm::vec4(p, 1.0f);
         clip[i] = glm::vec4(seen.x, seen.y, lit.z, seen.w);
     }

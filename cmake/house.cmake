@@ -2,7 +2,7 @@
 #
 # For work on shadowmath itself; a project that uses it never gets here.
 option(SHADOWMATH_BUILD_BACKENDS "Build the OpenGL backends, the scenes and the ray-traced truth" ON)
-option(SHADOWMATH_BUILD_EXAMPLES "Build the examples and the gallery; needs the backends" ON)
+option(SHADOWMATH_BUILD_EXAMPLES "Build the examples, the documentation's programs and, with backends, the gallery" ON)
 option(SHADOWMATH_BUILD_TESTS "Build the tests" ON)
 option(SHADOWMATH_BUILD_BENCH "Build the benchmarks; scripts/bench does, and runs them" OFF)
 
@@ -39,9 +39,9 @@ endif()
 
 if(SHADOWMATH_BUILD_BACKENDS)
     set(parts backends scenes oracle)
-    if(SHADOWMATH_BUILD_EXAMPLES)
-        list(APPEND parts examples)
-    endif()
+endif()
+if(SHADOWMATH_BUILD_EXAMPLES)
+    list(APPEND parts examples docs)
 endif()
 if(SHADOWMATH_BUILD_TESTS)
     list(APPEND parts tests tests/cells tests/consume)

@@ -259,28 +259,52 @@ std::vector<View> views_around(double half_width) {
     };
 }
 
-}  // namespace
-
-NamedScene read_obj(std::istream& text, std::string const& name) {
+Mesh sound_mesh(std::istream& text, std::string const& name) {
     Mesh mesh = parse(text);
     if (!mesh.fault.empty()) throw std::runtime_error(name + ": " + mesh.fault);
-    double const half_width = stand_up(mesh);
+    return mesh;
+}
+
+MeshBuilder built(Mesh const& mesh, std::string const& name) {
     MeshBuilder builder;
     add_model(builder, mesh);
     if (builder.triangle_count() == 0) throw std::runtime_error(name + ": holds no triangle with an area");
-    add_stage(builder, half_width);
-    std::string stem = std::filesystem::path(name).stem().string();
-    for (char& c : stem)
-        if (std::string_view(" \t/\\:*?\"<>|'&;").find(c) != std::string_view::npos) c = '_';
-    return {builder.finish(stem.empty() ? "model" : stem), views_around(half_width)};
+    return builder;
 }
 
-NamedScene load_obj(std::filesystem::path const& file) {
+std::string scene_name(std::string const& file) {
+    std::string stem = std::filesystem::path(file).stem().string();
+    for (char& c : stem)
+        if (std::string_view(" \t/\\:*?\"<>|'&;").find(c) != std::string_view::npos) c = '_';
+    return stem.empty() ? "model" : stem;
+}
+
+std::ifstream opened(std::filesystem::path const& file) {
     std::ifstream text(file, std::ios::binary);
     std::error_code ignored;
     if (!text || std::filesystem::is_directory(file, ignored))
         throw std::runtime_error(file.string() + ": cannot be read");
+    return text;
+}
+
+}  // namespace
+
+NamedScene read_obj(std::istream& text, std::string const& name) {
+    Mesh mesh = sound_mesh(text, name);
+    double const half_width = stand_up(mesh);
+    MeshBuilder builder = built(mesh, name);
+    add_stage(builder, half_width);
+    return {builder.finish(scene_name(name)), views_around(half_width)};
+}
+
+NamedScene load_obj(std::filesystem::path const& file) {
+    std::ifstream text = opened(file);
     return read_obj(text, file.string());
+}
+
+backend::Scene load_obj_as_it_stands(std::filesystem::path const& file) {
+    std::ifstream text = opened(file);
+    return built(sound_mesh(text, file.string()), file.string()).finish(scene_name(file.string()));
 }
 
 }  // namespace shadowmath::scenes

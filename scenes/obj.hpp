@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A scene around one mesh read from a Wavefront OBJ file (through tinyobjloader): the model, 2 m high, on a ground
-// slab twelve times its size, with a post and a box beside it so that shadows fall across.
+// Wavefront OBJ files (through tinyobjloader), as a scene around one mesh: the model, 2 m high, on a ground slab twelve
+// times its size, with a post and a box beside it so that shadows fall across; or alone, where its file puts it.
 // Materials, textures, lines and points are ignored; polygons are cut into fans; missing normals are made, kept sharp
 // where faces meet at more than 50 degrees.
 #pragma once
@@ -19,5 +19,8 @@ namespace shadowmath::scenes {
 
 // The same from a stream; name stands for the file in errors, its stem names the scene.
 [[nodiscard]] NamedScene read_obj(std::istream& text, std::string const& name);
+
+// The mesh alone, its coordinates as they stand in the file, in objects of at most 3000 triangles. Throws as load_obj.
+[[nodiscard]] backend::Scene load_obj_as_it_stands(std::filesystem::path const& file);
 
 }  // namespace shadowmath::scenes

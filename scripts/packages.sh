@@ -23,6 +23,7 @@ test_packages=(
     codespell gdb                                                # spelling; the pretty-printers are tried in a debugger
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery
+    doxygen                                                      # the reference has no warnings
 )
 engine_packages=(
     libogre-1.12-dev libopenscenegraph-dev                       # the engines that shadowmath is dropped into
@@ -37,6 +38,10 @@ all_packages=(
     gcovr python3                                                # which lines the tests reach; mutants
 )
 
+docs_packages=(
+    g++ cmake ninja-build libglm-dev libpng-dev                  # the programs that draw what the pages show
+    cmark-gfm doxygen                                            # the pages, the reference
+)
 bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev libembree-dev nlohmann-json3-dev)
 
 # Installs what is missing of the packages given, or prints the line that does and fails.

@@ -818,6 +818,97 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/reach.hpp ========
+//
+// How far numbers may reach before arithmetic on them leaves the range of float: the one limit of all fits. What lies
+// beyond is not visible; boxes alone may be larger, since they are cut to what is in reach first.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Metres: a hundred light years. Squares stay finite in float.
+template <class T>
+inline constexpr T farthest_metres = T(1e18);
+
+// Its inverse: lengths below have reciprocals that are too large.
+template <class T>
+inline constexpr T least_metres = T(1e-18);
+
+template <class T>
+[[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
+    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
+}
+
+template <class T>
+[[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
+    return std::fmax(largest_of(box.lo), largest_of(box.hi));
+}
+
+// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
+// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
+[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x80000000u - 0x5d800000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits + (0x8000000000000000u - 0x43b0000000000000u);
+}
+[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
+    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
+}
+
+// The top bit is set where a value is not from `lo` to `hi`, lo > 0; likewise by its bits.
+[[nodiscard]] inline std::uint32_t beyond(float value, float lo, float hi) noexcept {
+    std::uint32_t bits, least, most;
+    std::memcpy(&bits, &value, sizeof bits);
+    std::memcpy(&least, &lo, sizeof least);
+    std::memcpy(&most, &hi, sizeof most);
+    return bits | (bits - least) | (most - bits);
+}
+[[nodiscard]] inline std::uint64_t beyond(double value, double lo, double hi) noexcept {
+    std::uint64_t bits, least, most;
+    std::memcpy(&bits, &value, sizeof bits);
+    std::memcpy(&least, &lo, sizeof least);
+    std::memcpy(&most, &hi, sizeof most);
+    return bits | (bits - least) | (most - bits);
+}
+[[nodiscard]] inline std::uint64_t beyond(long double value, long double lo, long double hi) noexcept {
+    return value >= lo && value <= hi ? 0 : ~std::uint64_t(0);
+}
+
+// Numbers that are not negative by their bits: these order as the numbers do, and above all of them come infinity and
+// NaN. Negative numbers come below all others, but for -0, which is 0.
+[[nodiscard]] inline std::int32_t order_of(float value) noexcept {
+    std::int32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits == std::numeric_limits<std::int32_t>::min() ? 0 : bits;
+}
+[[nodiscard]] inline std::int64_t order_of(double value) noexcept {
+    std::int64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits == std::numeric_limits<std::int64_t>::min() ? 0 : bits;
+}
+[[nodiscard]] inline long double order_of(long double value) noexcept {
+    return value == value ? value : std::numeric_limits<long double>::infinity();
+}
+
+// Unit to a thousandth, as light_basis makes them for every light that is usable.
+template <class T>
+[[nodiscard]] inline bool has_unit_axes(LightBasis<T> const& basis) noexcept {
+    auto const is_unit = [](Vec3<T> const& axis) {
+        return all_finite(axis) && largest_of(axis) < T(2) && std::abs(glm::dot(axis, axis) - T(1)) <= T(1e-3);
+    };
+    return is_unit(basis.x) && is_unit(basis.y) && is_unit(basis.depth);
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/splits.hpp ========
 //
 // Where to cut the view along its depth: n = C[0] < C[1] < ... < C[m] = f, in metres of eye depth.
@@ -913,16 +1004,12 @@ template <class T>
     return all_finite(&lambda, 1) ? (lambda > T(1) ? T(1) : T(0)) : T(0.5);
 }
 
-}  // namespace detail
-
-// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0
-// uniform. z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and
-// no fault). Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at
-// 2^-20 of z_far (near_clamped).
+// Any case of practical_splits.
 template <class T>
-[[nodiscard]] inline Splits<T> practical_splits(T z_near, T z_far, int count, T lambda = T(0.5)) noexcept {
-    Splits<T> splits = detail::open_splits(z_near, z_far, count);
-    T const weight = detail::clamped_lambda(lambda, splits.faults);
+[[nodiscard]] inline Splits<T> any_practical_splits(T const& z_near, T const& z_far, int count,
+                                                    T const& lambda) noexcept {
+    Splits<T> splits = open_splits(z_near, z_far, count);
+    T const weight = clamped_lambda(lambda, splits.faults);
     if (splits.count == 0) return splits;
     bool const has_ratio = z_near > z_far * T(0x1p-64);
     if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
@@ -931,17 +1018,49 @@ template <class T>
     auto const blended = [&](T fraction, T power) {
         return weight * (log_near * power) + (T(1) - weight) * (z_near + (z_far - z_near) * fraction);
     };
-    if (splits.count == 4 && weight > T(0)) {
-        // What most renderers ask for, without a loop; the same bits.
-        T const half = std::sqrt(ratio), quarter = std::sqrt(half);
-        splits.plane[1] = blended(T(0.25), quarter);
-        splits.plane[2] = blended(T(0.5), half);
-        splits.plane[3] = blended(T(0.75), half * quarter);
-    } else {
-        if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
-        for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
-    }
-    detail::close_splits(splits, z_near, z_far);
+    if (weight > T(0)) powers_of_ratio(ratio, splits.count, splits.plane);
+    for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
+    close_splits(splits, z_near, z_far);
+    return splits;
+}
+
+// What most renderers ask for: four splits between ordinary distances. False where any of that is not so, and then
+// `splits` is not to be used. The same bits as in any case.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline bool four_practical_splits(T const& z_near, T const& z_far, T const& lambda,
+                                                                    T (&plane)[max_splits + 1]) noexcept {
+    auto const n = order_of(z_near), f = order_of(z_far), weight = order_of(lambda);
+    if (!((n > 0) & (n < f) & (f < order_of(std::numeric_limits<T>::infinity())) & (weight > 0) &
+          (weight <= order_of(T(1)))) ||
+        !(z_near > z_far * T(0x1p-64)))
+        return false;
+    T const ratio = z_far / z_near, half = std::sqrt(ratio), quarter = std::sqrt(half);
+    auto const blended = [&](T fraction, T power) {
+        return lambda * (z_near * power) + (T(1) - lambda) * (z_near + (z_far - z_near) * fraction);
+    };
+    plane[0] = z_near;
+    plane[1] = blended(T(0.25), quarter);
+    plane[2] = blended(T(0.5), half);
+    plane[3] = blended(T(0.75), half * quarter);
+    plane[4] = z_far;
+    return (plane[0] < plane[1]) & (plane[1] < plane[2]) & (plane[2] < plane[3]) & (plane[3] < plane[4]);
+}
+
+}  // namespace detail
+
+// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0
+// uniform. z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and
+// no fault). Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at
+// 2^-20 of z_far (near_clamped).
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Splits<T> practical_splits(T z_near, T z_far, int count,
+                                                                    T lambda = T(0.5)) noexcept {
+    // NOTE: one object and one return, or it is copied before it has left the store buffer.
+    Splits<T> splits;
+    if (count == 4 && detail::four_practical_splits(z_near, z_far, lambda, splits.plane))
+        splits.count = 4;
+    else
+        splits = detail::any_practical_splits(z_near, z_far, count, lambda);
     return splits;
 }
 
@@ -1051,62 +1170,6 @@ template <class T>
     return part;
 }
 
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/reach.hpp ========
-//
-// How far numbers may reach before arithmetic on them leaves the range of float: the one limit of all fits. What lies
-// beyond is not visible; boxes alone may be larger, since they are cut to what is in reach first.
-
-namespace shadowmath {
-inline namespace v0 {
-namespace detail {
-
-// Metres: a hundred light years. Squares stay finite in float.
-template <class T>
-inline constexpr T farthest_metres = T(1e18);
-
-// Its inverse: lengths below have reciprocals that are too large.
-template <class T>
-inline constexpr T least_metres = T(1e-18);
-
-template <class T>
-[[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
-    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
-}
-
-template <class T>
-[[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
-    return std::fmax(largest_of(box.lo), largest_of(box.hi));
-}
-
-// The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
-// farthest_metres). By its bits (finite.hpp) and without a branch, so that many are a few instructions.
-[[nodiscard]] inline std::uint32_t beyond_reach(float value) noexcept {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x80000000u - 0x5d800000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(double value) noexcept {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits + (0x8000000000000000u - 0x43b0000000000000u);
-}
-[[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
-    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
-}
-
-// Unit to a thousandth, as light_basis makes them for every light that is usable.
-template <class T>
-[[nodiscard]] inline bool has_unit_axes(LightBasis<T> const& basis) noexcept {
-    auto const is_unit = [](Vec3<T> const& axis) {
-        return all_finite(axis) && largest_of(axis) < T(2) && std::abs(glm::dot(axis, axis) - T(1)) <= T(1e-3);
-    };
-    return is_unit(basis.x) && is_unit(basis.y) && is_unit(basis.depth);
-}
-
-}  // namespace detail
 }  // namespace v0
 }  // namespace shadowmath
 
@@ -1246,6 +1309,16 @@ template <class T>
 // Four numbers that are computed with as one: a register where the compiler has vectors of float, an array elsewhere.
 // The same operations in the same order either way, so the same bits.
 
+// One instruction each, where the compiler lets them be named.
+#if defined(__SSE2__) && defined(__has_builtin)
+#if __has_builtin(__builtin_ia32_sqrtps) && __has_builtin(__builtin_ia32_minps) && __has_builtin(__builtin_ia32_maxps)
+#define SHADOWMATH_NAMES_SSE 1
+#endif
+#endif
+#ifndef SHADOWMATH_NAMES_SSE
+#define SHADOWMATH_NAMES_SSE 0
+#endif
+
 namespace shadowmath {
 inline namespace v0 {
 namespace detail {
@@ -1273,6 +1346,9 @@ struct Lanes {
         auto const less = [](T x, T y) { return x < y ? x : y; };
         return {{less(a.at[0], b.at[0]), less(a.at[1], b.at[1]), less(a.at[2], b.at[2]), less(a.at[3], b.at[3])}};
     }
+    friend Lanes root(Lanes const& a) noexcept {
+        return {{std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3])}};
+    }
     friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
         auto const more = [](T x, T y) { return x > y ? x : y; };
         return {{more(a.at[0], b.at[0]), more(a.at[1], b.at[1]), more(a.at[2], b.at[2]), more(a.at[3], b.at[3])}};
@@ -1293,11 +1369,128 @@ struct Lanes<float> {
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
     friend Lanes operator/(Lanes const& a, Lanes const& b) noexcept { return {a.at / b.at}; }
-    friend Lanes least(Lanes const& a, Lanes const& b) noexcept { return {a.at < b.at ? a.at : b.at}; }
-    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept { return {a.at > b.at ? a.at : b.at}; }
+#if SHADOWMATH_NAMES_SSE
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        return {__builtin_ia32_minps(a.at, b.at)};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        return {__builtin_ia32_maxps(a.at, b.at)};
+    }
+    friend Lanes root(Lanes const& a) noexcept {
+        return {__builtin_ia32_sqrtps(a.at)};
+    }
+#else
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        return {a.at < b.at ? a.at : b.at};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        return {a.at > b.at ? a.at : b.at};
+    }
+    friend Lanes root(Lanes const& a) noexcept {
+        return of(std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3]));
+    }
+#endif
 };
 
 #endif
+
+// The last three of the four, and `after` them.
+// NOTE: to be preferred to loading them where the four have just been written one by one.
+template <class T>
+[[nodiscard]] inline Lanes<T> moved_up(Lanes<T> const& four, T after) noexcept {
+    return Lanes<T>::of(four[1], four[2], four[3], after);
+}
+
+// Rows for columns.
+template <class T>
+inline void transpose(Lanes<T> (&rows)[4]) noexcept {
+    Lanes<T> const a = rows[0], b = rows[1], c = rows[2], d = rows[3];
+    for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
+}
+
+// Whether the numbers that are not negative grow from place to place, as order_of (reach.hpp) has it.
+template <class T>
+[[nodiscard]] inline bool in_order(Lanes<T> const& less, Lanes<T> const& more) noexcept {
+    bool good = true;
+    for (int i = 0; i < 4; ++i) good = good & (order_of(less[i]) < order_of(more[i]));
+    return good;
+}
+
+// Whether any of them is beyond reach (reach.hpp), for several at a time.
+template <class T>
+class BeyondReach {
+public:
+    void look_at(Lanes<T> const& four) noexcept {
+        for (int i = 0; i < 4; ++i) beyond_ |= beyond_reach(std::abs(four[i]));
+    }
+    [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
+
+private:
+    decltype(beyond_reach(T(0))) beyond_ = 0;
+};
+
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
+
+#if defined(__clang__) || __GNUC__ >= 12
+template <>
+[[nodiscard]] inline Lanes<float> moved_up(Lanes<float> const& four, float after) noexcept {
+    return {__builtin_shufflevector(four.at, Lanes<float>::Register{after}, 1, 2, 3, 4)};
+}
+
+template <>
+inline void transpose(Lanes<float> (&rows)[4]) noexcept {
+    auto const a = __builtin_shufflevector(rows[0].at, rows[1].at, 0, 4, 1, 5);
+    auto const b = __builtin_shufflevector(rows[2].at, rows[3].at, 0, 4, 1, 5);
+    auto const c = __builtin_shufflevector(rows[0].at, rows[1].at, 2, 6, 3, 7);
+    auto const d = __builtin_shufflevector(rows[2].at, rows[3].at, 2, 6, 3, 7);
+    rows[0].at = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+    rows[1].at = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+    rows[2].at = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+    rows[3].at = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+}
+#endif
+
+template <>
+[[nodiscard]] inline bool in_order(Lanes<float> const& less, Lanes<float> const& more) noexcept {
+    using Bits [[gnu::vector_size(16)]] = std::int32_t;
+    Bits a, b;
+    std::memcpy(&a, &less, sizeof a);
+    std::memcpy(&b, &more, sizeof b);
+    // -0 becomes 0.
+    auto const good = (a & ~(a == std::numeric_limits<std::int32_t>::min())) < b;
+    std::uint64_t halves[2];
+    std::memcpy(halves, &good, sizeof halves);
+    return (halves[0] & halves[1]) == ~std::uint64_t(0);
+}
+
+template <>
+class BeyondReach<float> {
+public:
+    void look_at(Lanes<float> const& four) noexcept {
+        Bits bits;
+        std::memcpy(&bits, &four, sizeof bits);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x5d800000u);
+    }
+    [[nodiscard]] bool any() const noexcept {
+        std::uint64_t halves[2];
+        std::memcpy(halves, &beyond_, sizeof halves);
+        return ((halves[0] | halves[1]) & 0x8000000080000000u) != 0;
+    }
+
+private:
+    using Bits [[gnu::vector_size(16)]] = std::uint32_t;
+    Bits beyond_ = {};
+};
+
+#endif
+
+template <class T>
+[[nodiscard]] inline Lanes<T> four_at(T const* values) noexcept {
+    Lanes<T> four;
+    static_assert(sizeof four == 4 * sizeof(T), "numbers without a gap");
+    std::memcpy(&four, values, sizeof four);
+    return four;
+}
 
 template <class T>
 [[nodiscard]] inline Lanes<T> all_four(T value) noexcept {
@@ -1362,12 +1555,12 @@ namespace detail {
 template <class T>
 struct ViewInLight {
     Lanes<T> x, y, z;   // columns of the rotation into light space
-    Lanes<T> eye_lo;    // at depth 0, the least
+    Lanes<T> eye_lo;    // at depth 0, the least, and less by what it may be rounded by
     Lanes<T> eye_hi;    // and the largest
     Lanes<T> slope_lo;  // by which they grow with depth
     Lanes<T> slope_hi;
-    T rounding;  // of a coordinate at depth 0, metres
-    T rounding_slope;
+    Lanes<T> forward;
+    T rounding_slope;  // by which the rounding of a coordinate grows with depth
 };
 
 template <class T>
@@ -1375,56 +1568,77 @@ template <class T>
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// False, and `seen` not written, where a number is not finite or beyond 2^60 m, or a side is crossed.
+// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or
+// a side crossed.
+// NOTE: not inlined, it would hand over its twelve registers by way of memory.
 template <class T>
-[[nodiscard]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view, ViewInLight<T>& seen) noexcept {
-    // NOTE: whole runs of numbers are copied, as vectors are; what is written one by one would wait to be read as one.
-    static_assert(sizeof view.pose == 12 * sizeof(T) && sizeof basis == 9 * sizeof(T), "numbers without a gap");
-    T of_view[16], of_basis[8];
-    std::memcpy(of_view, &view, sizeof of_view);
-    std::memcpy(of_basis, &basis, sizeof of_basis);
-    auto beyond = beyond_reach(std::abs(basis.depth.z));
-    for (int i = 0; i < 16; ++i) beyond |= beyond_reach(std::abs(of_view[i]));
-    for (int i = 0; i < 8; ++i) beyond |= beyond_reach(std::abs(of_basis[i]));
-    if (beyond >> (8 * sizeof beyond - 1) != 0 || !(view.left < view.right) || !(view.bottom < view.top)) return false;
+[[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
+                                                   ViewInLight<T>& seen) noexcept {
+    static_assert(sizeof view.pose == 12 * sizeof(T), "numbers without a gap");
     seen.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
     seen.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
     seen.z = Lanes<T>::of(basis.x.z, basis.y.z, basis.depth.z, T(0));
+    BeyondReach<T> beyond;
+    for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
+    beyond.look_at(four_at(&view.left));
+    // NOTE: with longer axes the rounding that is allowed for would be too little, and a map without extent.
+    beyond.look_at(seen.x * all_four(T(0x1p59)));
+    beyond.look_at(seen.y * all_four(T(0x1p59)));
+    beyond.look_at(seen.z * all_four(T(0x1p59)));
+    if (beyond.any() || !(view.left < view.right) || !(view.bottom < view.top)) return false;
     auto const along = [&seen](Vec3<T> const& v) {
         return seen.x * all_four(v.x) + seen.y * all_four(v.y) + seen.z * all_four(v.z);
     };
     Pose<T> const& pose = view.pose;
     Lanes<T> const eye = along(pose.position), forward = along(pose.forward);
     Lanes<T> const right = along(pose.right), up = along(pose.up);
+    seen.forward = forward;
     Lanes<T> const a = right * all_four(view.left), b = right * all_four(view.right);
     Lanes<T> const c = up * all_four(view.bottom), d = up * all_four(view.top);
     Lanes<T> const lo = least(a, b) + least(c, d), hi = largest(a, b) + largest(c, d);
-    bool const flat = view.kind == ViewKind::orthographic;
     T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
     constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
-    seen.rounding = unit * (absolute_sum(pose.position) + (flat ? sides : T(0)));
-    seen.rounding_slope = unit * (T(1) + (flat ? T(0) : sides));
-    seen.eye_lo = flat ? eye + lo : eye;
-    seen.eye_hi = flat ? eye + hi : eye;
-    seen.slope_lo = flat ? forward : forward + lo;
-    seen.slope_hi = flat ? forward : forward + hi;
+    if (view.kind == ViewKind::orthographic) {
+        Lanes<T> const rounding = all_four(unit * (absolute_sum(pose.position) + sides));
+        seen.eye_lo = eye + lo - rounding;
+        seen.eye_hi = eye + hi + rounding;
+        seen.slope_lo = seen.slope_hi = forward;
+        seen.rounding_slope = unit;
+    } else {
+        Lanes<T> const rounding = all_four(unit * absolute_sum(pose.position));
+        seen.eye_lo = eye - rounding;
+        seen.eye_hi = eye + rounding;
+        seen.slope_lo = forward + lo;
+        seen.slope_hi = forward + hi;
+        seen.rounding_slope = unit * (T(1) + sides);
+    }
     return true;
 }
 
 // Neither so near that a reciprocal overflows nor out of reach; increasing, as all functions make them.
 template <class T>
-[[nodiscard]] inline bool in_range(Splits<T> const& splits) noexcept {
-    if (splits.count < 1 || splits.count > max_splits || !all_finite(splits.plane, splits.count + 1)) return false;
-    bool increasing = splits.plane[0] >= T(0);
-    for (int i = 0; i < splits.count; ++i) increasing = increasing & (splits.plane[i] < splits.plane[i + 1]);
-    return increasing && splits.plane[1] >= least_metres<T> && splits.plane[splits.count] <= farthest_metres<T>;
+[[nodiscard, gnu::always_inline]] inline bool in_range(Splits<T> const& splits) noexcept {
+    if (splits.count < 1 || splits.count > max_splits) return false;
+    T const* const p = splits.plane;
+    if (splits.count == 4)
+        return (order_of(p[0]) >= order_of(T(0))) & (order_of(p[1]) >= order_of(least_metres<T>)) &
+               (order_of(p[4]) <= order_of(farthest_metres<T>)) & in_order(four_at(p), moved_up(four_at(p), p[4]));
+    auto last = order_of(splits.plane[0]);
+    bool good = last >= order_of(T(0));
+    for (int i = 1; i <= splits.count; ++i) {
+        auto const next = order_of(splits.plane[i]);
+        good = good & (last < next);
+        last = next;
+    }
+    return good & (order_of(splits.plane[1]) >= order_of(least_metres<T>)) & (last <= order_of(farthest_metres<T>));
 }
 
 // As bounding_sphere asks of a slice.
 template <class T>
 [[nodiscard]] inline bool ball_in_reach(ViewVolume<T> const& view, T farthest) noexcept {
-    T const side = std::fmax(std::fmax(std::abs(view.left), std::abs(view.right)),
-                             std::fmax(std::abs(view.bottom), std::abs(view.top)));
+    auto const more = [](T a, T b) { return a > b ? a : b; };
+    T const side =
+        more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
     return view.kind == ViewKind::orthographic || (side <= T(1e9) && side * farthest <= farthest_metres<T>);
 }
 
@@ -1448,9 +1662,12 @@ template <class T>
 template <class T>
 inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lanes<T> const& offset,
                           Mat4<T>& clip_from_world) noexcept {
-    Lanes<T> const columns[4] = {seen.x * scale, seen.y * scale, seen.z * scale, offset};
-    static_assert(sizeof columns == sizeof clip_from_world, "columns without a gap");
-    std::memcpy(&clip_from_world, columns, sizeof columns);
+    Lanes<T> const x = seen.x * scale, y = seen.y * scale, z = seen.z * scale;
+    static_assert(4 * sizeof x == sizeof clip_from_world, "columns without a gap");
+    std::memcpy(&clip_from_world[0], &x, sizeof x);
+    std::memcpy(&clip_from_world[1], &y, sizeof y);
+    std::memcpy(&clip_from_world[2], &z, sizeof z);
+    std::memcpy(&clip_from_world[3], &offset, sizeof offset);
 }
 
 }  // namespace detail
@@ -1458,29 +1675,180 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
 // clip_from_world[i] is the map of slice i: the smallest light-space box around it, and no depth but the slice's own.
 // Each corner of each slice is inside. `border` is the part of the map's side that is kept free on each of the four
 // sides, for filters: 2.0f / 2048 for two texels; [0, 0.49]. Writes splits.count matrices and says true; or nowhere()
-// and false, where a number is not finite or beyond 2^60 m, a side is crossed, or the border outside its range.
+// and false, where a number is not finite or beyond 2^60 m, an axis is no axis, a side crossed, or the border outside
+// its range.
 template <class T>
 [[nodiscard]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                           Splits<T> const& splits, T border, ClipSpace clip,
                                           Mat4<T>* clip_from_world) noexcept {
     using Lanes = detail::Lanes<T>;
     detail::ViewInLight<T> seen;
-    if (!detail::look(basis, view, seen) || !detail::in_range(splits) || !(border >= T(0) && border <= T(0.49))) {
+    if (!detail::look(basis, view, seen) || !detail::in_range(splits) ||
+        !(detail::order_of(border) >= detail::order_of(T(0)) &&
+          detail::order_of(border) <= detail::order_of(T(0.49)))) {
         for (int i = 0; i < splits.count; ++i) clip_from_world[i] = nowhere<T>();
         return false;
     }
     detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(2) - T(4) * border);
+    Lanes const slope = detail::all_four(seen.rounding_slope), half = detail::all_four(T(0.5));
+    Lanes const n = detail::all_four(splits.plane[0]);
+    Lanes n_lo = n * seen.slope_lo, n_hi = n * seen.slope_hi;
     for (int i = 0; i < splits.count; ++i) {
-        Lanes const n = detail::all_four(splits.plane[i]), f = detail::all_four(splits.plane[i + 1]);
-        Lanes const rounding = detail::all_four(seen.rounding + seen.rounding_slope * splits.plane[i + 1]);
-        Lanes const lo = seen.eye_lo + least(n * seen.slope_lo, f * seen.slope_lo) - rounding;
-        Lanes const hi = seen.eye_hi + largest(n * seen.slope_hi, f * seen.slope_hi) + rounding;
+        Lanes const f = detail::all_four(splits.plane[i + 1]), rounding = f * slope;
+        Lanes const f_lo = f * seen.slope_lo, f_hi = f * seen.slope_hi;
+        Lanes const lo = seen.eye_lo + (least(n_lo, f_lo) - rounding);
+        Lanes const hi = seen.eye_hi + (largest(n_hi, f_hi) + rounding);
         Lanes const scale = map.extent / (hi - lo);
-        detail::write_columns(seen, scale, map.middle - (lo + hi) * detail::all_four(T(0.5)) * scale,
-                              clip_from_world[i]);
+        detail::write_columns(seen, scale, map.middle - (lo + hi) * half * scale, clip_from_world[i]);
+        n_lo = f_lo, n_hi = f_hi;
     }
     return true;
 }
+
+namespace detail {
+
+// What the maps of all spheres of a view have in common.
+template <class T>
+struct SphereMaps {
+    using Exact = decltype(T() + double());
+    ViewInLight<T> seen;
+    MapInLanes<T> map;
+    T texel_per_radius;
+    int size;      // texels along a map's side
+    Exact eye[2];  // across the light, metres
+
+    // The window around the centre of a ball at these coordinates; false where its texels cannot be counted. Depth is
+    // scaled by `along`, and moved by `offset`.
+    [[nodiscard, gnu::always_inline]] bool write(Exact x, Exact y, T texel, T along, T offset,
+                                                 Mat4<T>& clip_from_world) const noexcept {
+        Exact const per_side = 2 / Exact(size), texels = 1 / Exact(texel),
+                    middle = Exact(0.5) - Exact(size) * Exact(0.5);
+        Exact const left = x * texels + middle, bottom = y * texels + middle;
+        if (!(std::abs(left) < Exact(0x1p51) && std::abs(bottom) < Exact(0x1p51)) || !(texel >= least_metres<T>))
+            return false;
+        auto const whole = [](Exact value) {
+            auto const truncated = static_cast<Exact>(static_cast<std::int64_t>(value));
+            return truncated - (truncated > value ? Exact(1) : Exact(0));
+        };
+        T const across = T(per_side * texels), up = map.extent[1];
+        T const offset_x = T(-(whole(left) * per_side + 1)), offset_y = T(-(whole(bottom) * per_side + 1));
+        write_columns(seen, Lanes<T>::of(across, across * up, along, T(0)),
+                      Lanes<T>::of(offset_x, offset_y * up, offset, T(1)), clip_from_world);
+        return true;
+    }
+};
+
+// Slices of a view whose sides are equal, four at a time: the ball around one lies on its axis, no farther than its far
+// face. False where one map is too far out or too fine for it: then all are made as those of any view.
+// NOTE: loops of a constant length over arrays are what compilers make vectors of.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline bool write_centred_spheres(SphereMaps<T> const& maps,
+                                                                    ViewVolume<T> const& view, Splits<T> const& splits,
+                                                                    Mat4<T>* clip_from_world) noexcept {
+    using Lanes = Lanes<T>;
+    using Exact = typename SphereMaps<T>::Exact;
+    auto const all = [](T value) { return all_four(value); };
+    T const k2 = view.right * view.right + view.top * view.top;  // k: radius of a face per metre of its depth
+    T const per_radius = maps.texel_per_radius, nearest = splits.plane[1] * per_radius;
+    T const ahead_x = maps.seen.forward[0], ahead_y = maps.seen.forward[1];
+    Exact const eye_x = maps.eye[0], eye_y = maps.eye[1];
+    T const farthest =
+        T(std::abs(eye_x)) + T(std::abs(eye_y)) + (std::abs(ahead_x) + std::abs(ahead_y)) * splits.plane[splits.count];
+    // No texel is finer than that of a ball of the first far face. 2^28 of them, and they no longer count in 32 bits.
+    T const finest2 = k2 * nearest * nearest;
+    if (!(finest2 >= T(1e-30)) || !(farthest * farthest < T(0x1p56) * finest2) || maps.size > (1 << 28)) return false;
+    constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
+    Lanes const lo_0 = all(maps.seen.eye_lo[2]), lo_slope = all(maps.seen.slope_lo[2]);
+    Lanes const hi_0 = all(maps.seen.eye_hi[2]), hi_slope = all(maps.seen.slope_hi[2]);
+    // Raised so that all places are positive, and conversion to an integer rounds downward.
+    constexpr std::int32_t raised = 1 << 29;
+    std::int32_t const back = maps.size - 2 * raised;
+    Exact const middle = Exact(raised) + Exact(0.5) - Exact(maps.size) * Exact(0.5);
+    for (int first = 0; first < splits.count; first += 4) {
+        int const left = splits.count - first < 4 ? splits.count - first : 4;
+        T const* const p = splits.plane + first;
+        Lanes n = four_at(p), f;
+        if (left == 4) {
+            f = moved_up(n, p[4]);
+        } else {
+            // The last slice once more in the places that are left.
+            n = Lanes::of(p[0], p[left > 1 ? 1 : 0], p[left > 2 ? 2 : left - 1], p[left - 1]);
+            f = Lanes::of(p[1], p[left > 1 ? 2 : 1], p[left > 2 ? 3 : left], p[left]);
+        }
+        // 1 where the ball is centred on the far face: where its half width is no less than its depth.
+        Lanes const centre = least((all(T(1)) + n / f) * all(T(0.5)) * all(T(1) + k2), all(T(1)));
+        Lanes const behind = all(T(1)) - centre, radius = root(behind * behind + all(k2));
+        Lanes const texel = radius * (f * all(per_radius + per_radius * slack)) + f * all(per_radius * slack);
+        Lanes const per_texel = all(T(1)) / texel;
+        T ahead_in_x[4], ahead_in_y[4], texels[4];
+        Lanes const x_ahead = centre * f * all(ahead_x), y_ahead = centre * f * all(ahead_y);
+        std::memcpy(ahead_in_x, &x_ahead, sizeof ahead_in_x);
+        std::memcpy(ahead_in_y, &y_ahead, sizeof ahead_in_y);
+        std::memcpy(texels, &per_texel, sizeof texels);
+        Exact x[4], y[4];
+        std::int32_t column[4], row[4];
+        T offset_x[4], offset_y[4];
+        for (int i = 0; i < 4; ++i) {
+            x[i] = (eye_x + Exact(ahead_in_x[i])) * Exact(texels[i]) + middle;
+            y[i] = (eye_y + Exact(ahead_in_y[i])) * Exact(texels[i]) + middle;
+        }
+        for (int i = 0; i < 4; ++i) column[i] = static_cast<std::int32_t>(x[i]) * 2 + back;
+        for (int i = 0; i < 4; ++i) row[i] = static_cast<std::int32_t>(y[i]) * 2 + back;
+        for (int i = 0; i < 4; ++i) offset_x[i] = static_cast<T>(-column[i]);
+        for (int i = 0; i < 4; ++i) offset_y[i] = static_cast<T>(-row[i]);
+        Lanes const rounding = f * all(maps.seen.rounding_slope);
+        Lanes const lo = lo_0 + (least(n * lo_slope, f * lo_slope) - rounding);
+        Lanes const hi = hi_0 + (largest(n * hi_slope, f * hi_slope) + rounding);
+        Lanes const along = all(maps.map.extent[2]) / (hi - lo);
+        T const per_side = T(1) / T(maps.size), up = maps.map.extent[1];
+        Lanes scale[4] = {per_texel * all(T(2) * per_side), per_texel * all(T(2) * per_side * up), along, all(T(0))};
+        Lanes move[4] = {four_at(offset_x) * all(per_side), four_at(offset_y) * all(per_side * up),
+                         all(maps.map.middle[2]) - (lo + hi) * all(T(0.5)) * along, all(T(1))};
+        transpose(scale);
+        transpose(move);
+        for (int i = 0; i < left; ++i) write_columns(maps.seen, scale[i], move[i], clip_from_world[first + i]);
+    }
+    return true;
+}
+
+// Slices of any view, one after the other; nowhere() for those that no map can be made of.
+template <class T>
+[[nodiscard, gnu::noinline]] inline bool write_spheres(SphereMaps<T> const& maps, ViewVolume<T> const& view,
+                                                       LightBasis<T> const& basis, Splits<T> const& splits,
+                                                       Mat4<T>* clip_from_world) noexcept {
+    using Exact = typename SphereMaps<T>::Exact;
+    auto const exact = [](Vec3<T> const& axis, Vec3<T> const& v) {
+        return Exact(axis.x) * Exact(v.x) + Exact(axis.y) * Exact(v.y) + Exact(axis.z) * Exact(v.z);
+    };
+    ViewInLight<T> const& seen = maps.seen;
+    Pose<T> const& pose = view.pose;
+    ViewVolume<T> part = view;
+    bool good = true;
+    for (int i = 0; i < splits.count; ++i) {
+        T const n = splits.plane[i], f = splits.plane[i + 1];
+        part.z_near = n, part.z_far = f;
+        BallInView<T> const ball = ball_in_view(part);
+        Exact const unit = Exact(ball.unit), depth = Exact(ball.center.z) * unit;
+        Exact const right = Exact(ball.center.x) * unit, up = Exact(ball.center.y) * unit;
+        auto const across = [&](Vec3<T> const& axis) {
+            return exact(axis, pose.forward) * depth + (exact(axis, pose.right) * right + exact(axis, pose.up) * up);
+        };
+        Exact const x = maps.eye[0] + across(basis.x), y = maps.eye[1] + across(basis.y);
+        T const n_lo = n * seen.slope_lo[2], f_lo = f * seen.slope_lo[2];
+        T const n_hi = n * seen.slope_hi[2], f_hi = f * seen.slope_hi[2];
+        T const rounding = seen.rounding_slope * f;
+        T const lo = seen.eye_lo[2] + ((n_lo < f_lo ? n_lo : f_lo) - rounding);
+        T const hi = seen.eye_hi[2] + ((n_hi > f_hi ? n_hi : f_hi) + rounding);
+        T const along = maps.map.extent[2] / (hi - lo), offset = maps.map.middle[2] - (lo + hi) * T(0.5) * along;
+        if (!maps.write(x, y, ball.radius_metres * maps.texel_per_radius, along, offset, clip_from_world[i])) {
+            clip_from_world[i] = nowhere<T>();
+            good = false;
+        }
+    }
+    return good;
+}
+
+}  // namespace detail
 
 // As fit_slice_boxes, with the window of the slice's bounding sphere on the texel grid (texel_grid.hpp) for sides: what
 // casts no shimmering shadows. Nothing of the sphere is lost in x and y, and no corner of the slice in depth. False as
@@ -1489,67 +1857,28 @@ template <class T>
 [[nodiscard]] inline bool fit_slice_spheres(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                             Splits<T> const& splits, int map_size, T margin_texels, ClipSpace clip,
                                             Mat4<T>* clip_from_world) noexcept {
-    using Lanes = detail::Lanes<T>;
-    using Exact = decltype(T() + double());
-    detail::ViewInLight<T> seen;
+    detail::SphereMaps<T> maps;
+    using Exact = typename detail::SphereMaps<T>::Exact;
     Faults const margin = faults_of_margin(map_size, margin_texels);
-    bool good = detail::look(basis, view, seen) && detail::in_range(splits) && !margin.has(Fault::not_finite) &&
-                !margin.has(Fault::map_too_small) && detail::ball_in_reach(view, splits.plane[splits.count]);
-    if (!good) {
+    if (!detail::look(basis, view, maps.seen) || !detail::in_range(splits) || margin.has(Fault::not_finite) ||
+        margin.has(Fault::map_too_small) || !detail::ball_in_reach(view, splits.plane[splits.count])) {
         for (int i = 0; i < splits.count; ++i) clip_from_world[i] = nowhere<T>();
         return false;
     }
-    detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(1));
-    T const radii =
+    maps.map = detail::map_in_lanes(clip, T(1));
+    maps.texel_per_radius =
         (T(2) + T(16) * std::numeric_limits<T>::epsilon()) / (usable_texels(map_size, margin_texels) - T(1));
-    Exact const size = Exact(map_size), per_side = 1 / size;
-    auto const exact = [](Vec3<T> const& axis, Vec3<T> const& v) {
-        return Exact(axis.x) * Exact(v.x) + Exact(axis.y) * Exact(v.y) + Exact(axis.z) * Exact(v.z);
-    };
-    Pose<T> const& pose = view.pose;
+    maps.size = map_size;
+    // Both axes side by side: compilers make one vector of them.
+    Exact const x[2] = {Exact(basis.x.x), Exact(basis.y.x)}, y[2] = {Exact(basis.x.y), Exact(basis.y.y)};
+    Exact const z[2] = {Exact(basis.x.z), Exact(basis.y.z)};
+    Vec3<T> const& eye = view.pose.position;
+    for (int i = 0; i < 2; ++i) maps.eye[i] = x[i] * Exact(eye.x) + y[i] * Exact(eye.y) + z[i] * Exact(eye.z);
     bool const centred = view.left == -view.right && view.bottom == -view.top;
-    Exact const eye_x = exact(basis.x, pose.position), eye_y = exact(basis.y, pose.position);
-    Exact const forward_x = exact(basis.x, pose.forward), forward_y = exact(basis.y, pose.forward);
-    ViewVolume<T> part = view;
-    for (int i = 0; i < splits.count; ++i) {
-        part.z_near = splits.plane[i], part.z_far = splits.plane[i + 1];
-        detail::BallInView<T> const ball = detail::ball_in_view(part);
-        Exact const unit = Exact(ball.unit), depth = Exact(ball.center.z) * unit;
-        Exact x = eye_x + forward_x * depth, y = eye_y + forward_y * depth;
-        if (!centred) {
-            x += (exact(basis.x, pose.right) * Exact(ball.center.x) + exact(basis.x, pose.up) * Exact(ball.center.y)) *
-                 unit;
-            y += (exact(basis.y, pose.right) * Exact(ball.center.x) + exact(basis.y, pose.up) * Exact(ball.center.y)) *
-                 unit;
-        }
-        T const texel = ball.radius_metres * radii;
-        Exact const texels = 1 / Exact(texel), middle = Exact(0.5) - size * Exact(0.5);
-        Exact const left = x * texels + middle, bottom = y * texels + middle;
-        if (!(std::abs(left) < Exact(0x1p51) && std::abs(bottom) < Exact(0x1p51)) ||
-            !(texel >= detail::least_metres<T>)) {
-            clip_from_world[i] = nowhere<T>();
-            good = false;
-            continue;
-        }
-        auto const whole = [](Exact value) {
-            auto const truncated = static_cast<std::int64_t>(value);
-            return truncated - (Exact(truncated) > value ? 1 : 0);
-        };
-        T const across = T(2 * per_side * texels);
-        T const offset_x = T(-(2 * Exact(whole(left)) * per_side + 1));
-        T const offset_y = T(-(2 * Exact(whole(bottom)) * per_side + 1));
-        T const n = part.z_near, f = part.z_far;
-        T const n_lo = n * seen.slope_lo[2], f_lo = f * seen.slope_lo[2];
-        T const n_hi = n * seen.slope_hi[2], f_hi = f * seen.slope_hi[2];
-        T const rounding = seen.rounding + seen.rounding_slope * f;
-        T const lo = seen.eye_lo[2] + (n_lo < f_lo ? n_lo : f_lo) - rounding;
-        T const hi = seen.eye_hi[2] + (n_hi > f_hi ? n_hi : f_hi) + rounding;
-        T const along = map.extent[2] / (hi - lo), up = map.extent[1];
-        detail::write_columns(seen, Lanes::of(across, across * up, along, T(0)),
-                              Lanes::of(offset_x, offset_y * up, map.middle[2] - (lo + hi) * T(0.5) * along, T(1)),
-                              clip_from_world[i]);
-    }
-    return good;
+    if (centred && view.kind == ViewKind::perspective &&
+        detail::write_centred_spheres(maps, view, splits, clip_from_world))
+        return true;
+    return detail::write_spheres(maps, view, basis, splits, clip_from_world);
 }
 
 }  // namespace v0
@@ -1584,6 +1913,8 @@ template <class T>
 // extent, or so small that its inverse overflows, maps everything outside; fits see to it that theirs are not.
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(LightBox<T> const& box, ClipSpace clip) noexcept {
+    bool const has_extent = box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
+    if (!has_extent) return nowhere<T>();
     // Centre and half extent instead of a product of matrices: one rounding each.
     auto const axis = [](Vec3<T> const& direction, T lo, T hi) {
         T const scale = T(2) / (hi - lo);
@@ -1593,8 +1924,7 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(axis(box.basis.x, box.lo.x, box.hi.x), axis(box.basis.y, box.lo.y, box.hi.y),
                   Vec4<T>(box.basis.depth * depth_scale, -box.depth_lo * depth_scale), Vec4<T>(T(0), T(0), T(0), T(1)));
-    bool const has_extent = box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
-    return has_extent && all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
+    return all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
 }
 
 // The same map for points given relative to `origin` (a camera-relative renderer): M * translate(origin). Compute it in
@@ -3385,6 +3715,12 @@ template <class T>
     return all_finite(v) && largest_of(v) < T(0x1p60);
 }
 
+// Not empty, and in reach.
+template <class T>
+[[nodiscard]] inline bool is_ordinary(Aabb<T> const& box) noexcept {
+    return all_in_reach(box.lo) && all_in_reach(box.hi) && !is_empty(box);
+}
+
 // lo > hi, infinite ends included; false where one is NaN, and no signal of one.
 template <class T>
 [[nodiscard]] inline bool are_crossed(T const& lo, T const& hi) noexcept {
@@ -3421,18 +3757,19 @@ struct Reaches {
 // there is neither loop nor branch.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t bit_if_inside(typename CasterMaps<T>::Bundle const& bundle,
-                                                                     Reaches<T> const& reach, int place) noexcept {
+                                                                     Reaches<T> const& reach, int place,
+                                                                     std::uint32_t bit) noexcept {
     bool const inside = (reach.left >= bundle.least[0][place]) & (reach.right >= bundle.least[1][place]) &
                         (reach.bottom >= bundle.least[2][place]) & (reach.top >= bundle.least[3][place]) &
                         (reach.last >= bundle.least[4][place]);
-    return inside ? bundle.bit[place] : 0u;
+    return inside ? bit : 0u;
 }
 
 template <class T>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
                                                                    Reaches<T> const& reach) noexcept {
-    return bit_if_inside<T>(bundle, reach, 0) | bit_if_inside<T>(bundle, reach, 1) |
-           bit_if_inside<T>(bundle, reach, 2) | bit_if_inside<T>(bundle, reach, 3);
+    return bit_if_inside<T>(bundle, reach, 0, bundle.bit[0]) | bit_if_inside<T>(bundle, reach, 1, bundle.bit[1]) |
+           bit_if_inside<T>(bundle, reach, 2, bundle.bit[2]) | bit_if_inside<T>(bundle, reach, 3, bundle.bit[3]);
 }
 
 template <class T>
@@ -3541,59 +3878,94 @@ namespace detail {
 
 inline constexpr int boxes_at_once = 64;
 
-// One block of boxes; does nothing where a box is not in reach, and says so.
+// What the reach of a box along a normal must grow by, as a part of the size of its largest coordinate: of the three
+// products each may be off by the 10 epsilon of box_slack.
+template <class T>
+inline constexpr T reach_slack = T(32) * std::numeric_limits<T>::epsilon();
+
+// One block of boxes. Masks of those that are empty, not finite or beyond reach are none; `odd` says that there are
+// such.
 template <class T>
 struct MaskBlock {
     CasterMaps<T> const& maps;
     BoxArrays<T> const& boxes;
     MapMask* masks;
-    bool& in_reach;
+    std::uint32_t const (&bits)[max_caster_maps][4];  // of each bundle: as wide as numbers are
+    bool& odd;
+
+    // How far box i reaches along a normal, by the end of each axis that lies farther along it.
+    struct Side {
+        Vec3<T> normal;
+        T const *x, *y, *z;
+        [[gnu::always_inline]] T operator()(int i) const noexcept {
+            return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
+        }
+    };
+    [[gnu::always_inline]] Side side_of(Vec3<T> const& normal) const noexcept {
+        return {normal, normal.x > T(0) ? boxes.hi_x : boxes.lo_x, normal.y > T(0) ? boxes.hi_y : boxes.lo_y,
+                normal.z > T(0) ? boxes.hi_z : boxes.lo_z};
+    }
 
     [[gnu::always_inline]] inline void operator()() const noexcept {
         constexpr int n = boxes_at_once;
-        T grown[n], first_x[n], first_y[n], first_z[n], last_x[n], last_y[n], last_z[n];
-        std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
+        T grown[n];
+        std::uint32_t any_odd = 0;
         decltype(beyond_reach(T(0))) beyond = 0;
+        auto const less = [](T a, T b) { return a < b ? a : b; };
+        auto const more = [](T a, T b) { return a > b ? a : b; };
         for (int i = 0; i < n; ++i) {
-            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
-                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
-            beyond |= beyond_reach(sizes);
-            grown[i] = box_slack<T> * sizes;
-            mask[i] = 0;
+            T const lo = less(less(boxes.lo_x[i], boxes.lo_y[i]), boxes.lo_z[i]);
+            T const hi = more(more(boxes.hi_x[i], boxes.hi_y[i]), boxes.hi_z[i]);
+            T const largest = more(hi, -lo);
+            // NOTE: an end that is not a number is in no order, so that `largest` need not know it.
+            bool const full =
+                (boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]);
+            any_odd |= full ? 0u : ~0u;
+            beyond |= beyond_reach(largest);
+            grown[i] = reach_slack<T> * largest;
         }
-        in_reach = beyond >> (8 * sizeof beyond - 1) == 0;
-        if (!in_reach) return;
-        for (int i = 0; i < n; ++i) {
-            T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
-            T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
-            full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
-            first_x[i] = lo_x - grown[i];
-            first_y[i] = lo_y - grown[i];
-            first_z[i] = lo_z - grown[i];
-            last_x[i] = hi_x + grown[i];
-            last_y[i] = hi_y + grown[i];
-            last_z[i] = hi_z + grown[i];
-        }
+        odd = any_odd != 0 || beyond >> (8 * sizeof beyond - 1) != 0;
+        if (maps.bundle_count == 0) std::memset(masks, 0, n * sizeof *masks);
         for (int b = 0; b < maps.bundle_count; ++b) {
-            typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
-            struct Side {
-                Vec3<T> normal;
-                T const *x, *y, *z;  // the end of the boxes that lies farther along it
-                [[gnu::always_inline]] T operator()(int i) const noexcept {
-                    return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
-                }
-            };
-            auto const side_of = [&](Vec3<T> const& normal) {
-                return Side{normal, normal.x > T(0) ? last_x : first_x, normal.y > T(0) ? last_y : first_y,
-                            normal.z > T(0) ? last_z : first_z};
-            };
+            typename CasterMaps<T>::Bundle const& bundle = maps.bundle[b];
+            // NOTE: side by side, five sides want more registers than there are.
+            std::uint32_t const(&bit)[4] = bits[b];
             Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
             Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
-            Side const end = side_of(bundle.normal[4]);
-            for (int i = 0; i < n; ++i)
-                mask[i] |= bits_inside<T>(bundle, {left(i), right(i), bottom(i), top(i), end(i)});
+            Side const last = side_of(bundle.normal[4]);
+            T const(&from_left)[4] = bundle.least[0], (&from_right)[4] = bundle.least[1];
+            T const(&from_bottom)[4] = bundle.least[2], (&from_top)[4] = bundle.least[3];
+            T const(&from_last)[4] = bundle.least[4];
+            std::uint32_t in_0[n], in_1[n], in_2[n], in_3[n];  // all ones, or zero
+            for (int i = 0; i < n; ++i) {
+                T const a = left(i) + grown[i], c = right(i) + grown[i];
+                in_0[i] = ((a >= from_left[0]) & (c >= from_right[0])) ? ~0u : 0u;
+                in_1[i] = ((a >= from_left[1]) & (c >= from_right[1])) ? ~0u : 0u;
+                in_2[i] = ((a >= from_left[2]) & (c >= from_right[2])) ? ~0u : 0u;
+                in_3[i] = ((a >= from_left[3]) & (c >= from_right[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = bottom(i) + grown[i], c = top(i) + grown[i];
+                in_0[i] &= ((a >= from_bottom[0]) & (c >= from_top[0])) ? ~0u : 0u;
+                in_1[i] &= ((a >= from_bottom[1]) & (c >= from_top[1])) ? ~0u : 0u;
+                in_2[i] &= ((a >= from_bottom[2]) & (c >= from_top[2])) ? ~0u : 0u;
+                in_3[i] &= ((a >= from_bottom[3]) & (c >= from_top[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = last(i) + grown[i];
+                in_0[i] &= a >= from_last[0] ? ~0u : 0u;
+                in_1[i] &= a >= from_last[1] ? ~0u : 0u;
+                in_2[i] &= a >= from_last[2] ? ~0u : 0u;
+                in_3[i] &= a >= from_last[3] ? ~0u : 0u;
+            }
+            auto const bits_of = [&](int i) {
+                return (in_0[i] & bit[0]) | (in_1[i] & bit[1]) | (in_2[i] & bit[2]) | (in_3[i] & bit[3]);
+            };
+            if (b == 0)
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(bits_of(i));
+            else
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(masks[i] | bits_of(i));
         }
-        for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
     }
 };
 
@@ -3608,14 +3980,20 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
                        boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
         "caster_masks needs six arrays of boxes and one of masks");
+    std::uint32_t bits[max_caster_maps][4];
+    for (int b = 0; b < maps.bundle_count; ++b)
+        for (int place = 0; place < 4; ++place) bits[b][place] = maps.bundle[b].bit[place];
     constexpr int n = detail::boxes_at_once;
     for (int begin = 0; begin < count; begin += n) {
         BoxArrays<T> const block = boxes_from(boxes, begin);
         int const length = count - begin < n ? count - begin : n;
-        bool in_reach = false;
-        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
-        if (in_reach) continue;
-        for (int i = 0; i < length; ++i) masks[begin + i] = caster_mask(maps, box_at(block, i));
+        bool odd = false;
+        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, bits, odd});
+        if (length == n && !odd) continue;
+        for (int i = 0; i < length; ++i) {
+            Aabb<T> const box = box_at(block, i);
+            if (length < n || !detail::is_ordinary(box)) masks[begin + i] = caster_mask(maps, box);
+        }
     }
 }
 
@@ -4664,9 +5042,10 @@ template <class T>
 // far the map's texels are from the picture's pixels, as the mean square of the logarithms of the footprint's axes. 0
 // is one texel a pixel everywhere, 0.48 twice too long along one axis.
 //
-//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points
+//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points; and
+//                    with each point's weight that of its pixels, so that the far does not outvote the near
 //   least squares    through the points as they lie: slopes, walls
-//   least distortion the better of the two, moved along its normal until the number is least
+//   least distortion the best of these, moved along its normal until the number is least
 //
 // A plane that changes makes shadows jump: the one of the last frame is kept until another is better by a tenth.
 //
@@ -4761,6 +5140,38 @@ template <class T>
     return {unit, count > 0 ? -height[count / 2] : T(0)};
 }
 
+// Across `normal`, with half of the weight on either side: one over the square of a point's eye depth, as for
+// least_squares_plane. Points behind the eye have none. Otherwise as median_plane.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> weighted_median_plane(ViewVolume<T> const& view, Vec3<T> const& normal,
+                                                          SurfacePoint<T> const* samples, int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    std::array<T, max_samples> height, weight;
+    std::size_t count = 0;
+    T total = T(0);
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        T const depth = eye_depth(view, samples[i].point);
+        if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
+        T const h = glm::dot(unit, samples[i].point), w = T(1) / std::fmax(depth * depth, T(1e-12));
+        std::size_t at = count++;
+        for (; at > 0 && height[at - 1] > h; --at) {
+            height[at] = height[at - 1];
+            weight[at] = weight[at - 1];
+        }
+        height[at] = h;
+        weight[at] = w;
+        total += w;
+    }
+    T below = T(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        below += weight[i];
+        if (below * T(2) >= total) return {unit, -height[i]};
+    }
+    return {unit, T(0)};
+}
+
 // Mean square of ln(major) and ln(minor) over the samples, of a map of as many texels as the picture has pixels, before
 // any crop. Points that the plane cannot serve count as footprint_limit. The largest number where nothing is served, or
 // the plane is none.
@@ -4786,9 +5197,9 @@ template <class T>
     return served > 0 ? sum / T(count) : worst;
 }
 
-// The plane of least distortion among: across `ground_normal` at the median height, the least squares, and the better
-// one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no other
-// has less than 1 - `hysteresis` times its distortion.
+// The plane of least distortion among: across `ground_normal` at the two median heights, the least squares, and the
+// best one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no
+// other has less than 1 - `hysteresis` times its distortion.
 template <class T>
 [[nodiscard]] inline PlaneChoice<T> choose_plane(ViewVolume<T> const& view, Light<T> const& light,
                                                  SurfacePoint<T> const* samples, int sample_count,
@@ -4803,6 +5214,7 @@ template <class T>
         best = {plane, distortion, false, true};
     };
     consider(median_plane(ground_normal, samples, sample_count));
+    consider(weighted_median_plane(view, ground_normal, samples, sample_count));
     consider(least_squares_plane(view, samples, sample_count));
     if (best.visible) {
         Vec3<T> const normal = best.plane.normal;
@@ -4827,6 +5239,123 @@ template <class T>
     if (kept < std::numeric_limits<T>::max() && !(best.visible && best.distortion < kept * share))
         best = {*previous, kept, true, true};
     return best;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/plane_set.hpp ========
+//
+// Several shadow planes for one view: floor and wall, street and roofs. Each becomes a view-dependent map of its own
+// (view_dependent_map), in this order; behind them stands a map that serves what none of them does, cascades or one
+// uniform map. by_footprint chooses between them point by point.
+//
+// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of
+// the samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
+// serves well is then taken out, and the next one is chosen for the rest, as long as that is worth a map.
+//
+// Source: the thesis (Kwon 2002) names several planes as future work; Chong and Gortler 2004 draw floor and wall by two
+// maps. The choice is derived here. For one plane of least distortion over all that is seen see plane_choice.hpp.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int max_planes = 4;
+
+template <class T>
+struct PlaneSet {
+    std::array<ShadowPlane<T>, max_planes> at;
+    std::array<T, max_planes> share{};  // of the samples that each serves well and none before it does
+    int count = 0;                      // 0: no plane is worth a map; use cascades
+};
+
+template <class T>
+struct PlaneSetOptions {
+    int most = 2;             // planes, 1 to max_planes
+    T good_pixels = T(2);     // a texel's longer axis up to which a sample counts as well served, of a map with as many
+                              // texels as the picture has pixels; > 1
+    T least_share = T(0.15);  // of the samples that a plane must serve to be worth a map, (0, 1]
+    T hysteresis = T(0.1);    // planes of the last frame stay until another serves so much more
+};
+
+namespace detail {
+
+// How many of the samples a map on this plane serves well; `left`, if not null, gets those that it does not.
+template <class T>
+[[nodiscard]] inline int well_served(ShadowPlane<T> const& plane, Mat4<T> const& eye, Light<T> const& light,
+                                     Samples<T> const& samples, T good_pixels, Samples<T>* left = nullptr) noexcept {
+    Mat4<T> const slid = plane_projection(plane, homogeneous(light));
+    bool const usable = slid != Mat4<T>(T(1)) && all_finite(slid);
+    Mat4<T> const map = eye * slid;
+    int served = 0;
+    for (int i = 0; i < samples.count; ++i) {
+        SurfacePoint<T> const& sample = samples.at[static_cast<std::size_t>(i)];
+        T const major =
+            usable ? footprint(eye, Vec2<T>(T(1000)), map, T(1000), sample.point, sample.normal).major : T(0);
+        if (major > T(0) && major <= good_pixels)
+            ++served;
+        else if (left != nullptr)
+            left->at[static_cast<std::size_t>(left->count++)] = sample;
+    }
+    return served;
+}
+
+}  // namespace detail
+
+// Each plane serves more of what the ones before it leave over than any sample's tangent plane does, or is one of the
+// last frame's within the hysteresis. Samples that nobody sees or that the light does not reach take no part; of more
+// than max_samples every so-many-th is looked at. After at most most * (max_samples + max_planes) looks at all samples;
+// for now and then, not for every frame of a small budget.
+template <class T>
+[[nodiscard]] inline PlaneSet<T> choose_planes(ViewVolume<T> const& view, Light<T> const& light,
+                                               SurfacePoint<T> const* samples, int sample_count,
+                                               PlaneSetOptions<T> const& options = {},
+                                               PlaneSet<T> const* previous = nullptr) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    PlaneSet<T> planes;
+    bool const sound = all_finite(&options.good_pixels, 1) && all_finite(&options.least_share, 1) &&
+                       all_finite(&options.hysteresis, 1);
+    if (!sound || unusable(light) || faults_of(view).any() || sample_count <= 0) return planes;
+    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
+    Samples<T> rest;
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        SurfacePoint<T> const& sample = samples[i];
+        bool const seen = all_finite(sample.normal) && projected(eye, sample.point).in_front;
+        if (seen && !faces_away(light, sample.point, sample.normal))
+            rest.at[static_cast<std::size_t>(rest.count++)] = sample;
+    }
+    T const all = T(rest.count);
+    int const most = options.most < max_planes ? options.most : max_planes;
+    // A plane of the last frame that is a little behind stays; of two such the first.
+    T const kept_for = T(1) + glm::clamp(options.hysteresis, T(0), T(1));
+    while (planes.count < most && rest.count > 0) {
+        ShadowPlane<T> best{Vec3<T>(T(0)), T(0)};
+        int most_served = 0;
+        for (int i = 0; i < rest.count; ++i) {
+            SurfacePoint<T> const& sample = rest.at[static_cast<std::size_t>(i)];
+            ShadowPlane<T> const tangent = plane_through(sample.point, sample.normal);
+            int const served = detail::well_served(tangent, eye, light, rest, options.good_pixels);
+            if (served <= most_served) continue;
+            most_served = served;
+            best = tangent;
+        }
+        for (int i = 0; previous != nullptr && i < previous->count && i < max_planes; ++i) {
+            ShadowPlane<T> const& last = previous->at[static_cast<std::size_t>(i)];
+            int const served = detail::well_served(last, eye, light, rest, options.good_pixels);
+            if (served == 0 || T(most_served) > T(served) * kept_for) continue;
+            most_served = served;
+            best = last;
+            break;
+        }
+        if (most_served == 0 || T(most_served) < options.least_share * all) break;
+        Samples<T> left;
+        std::size_t const place = static_cast<std::size_t>(planes.count++);
+        planes.at[place] = best;
+        planes.share[place] = T(detail::well_served(best, eye, light, rest, options.good_pixels, &left)) / all;
+        rest = left;
+    }
+    return planes;
 }
 
 }  // namespace v0
@@ -5382,6 +5911,37 @@ template <class T>
     return all_finite(&offset, 1) ? offset : T(0);
 }
 
+// The same for any map, warped and view-dependent ones included, whose texels differ from place to place: the least
+// metres along the unit `normal` with which the plane through `point` does not shadow itself in this map. Exact for
+// suns: on a plane stored depth is linear in texels, and w is linear in the metres. Of a spot to first order in the
+// offset over the distance to it. At most `most_metres`, which is also its value where the map is edge-on to the plane,
+// and where a warp's own w runs away from the offset; 0 where the plane faces away, or the map does not hold the point.
+template <class T>
+[[nodiscard]] inline T normal_offset_at(ShadowMap<T> const& map, Light<T> const& light, int map_size, int filter_radius,
+                                        Vec3<T> const& point, Vec3<T> const& normal, T most_metres) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front || !all_finite(normal) || !all_finite(&most_metres, 1) || !(most_metres > T(0)) ||
+        unusable(light) || !(depth_gain(map, light) > T(0)))
+        return T(0);
+    T const cosine = glm::dot(normal, toward(light, point));
+    if (!(cosine > T(0))) return T(0);
+    DepthSlope<T> const s = slope(map, map_size, point, normal, T(1e6));
+    // What the kernel needs of clip depth, before the division by w.
+    T const needed = kernel_reach_texels<T>(filter_radius) * (std::abs(s.x) + std::abs(s.y)) / depth_gain(map, light);
+    T offset = T(0);
+    if (light.kind == LightKind::directional) {
+        // needed * (w + offset * gain of w) = offset / cosine
+        T const gain_of_w = glm::dot(Vec3<T>(row(map.clip_from_world, 3)), normal);
+        T const left = T(1) - needed * cosine * gain_of_w;
+        offset = left > T(0) ? bounded_quotient(needed * cosine * at.w, left, most_metres) : most_metres;
+    } else {
+        // The way to the lamp, shortened by the share s, gains k s / (1 - s).
+        T const distance = safe_normalize(point - light.position).length, raised = needed * at.w;
+        offset = cosine * distance * bounded_quotient(raised, T(1) + raised, T(1));
+    }
+    return all_finite(&offset, 1) && offset < most_metres ? offset : most_metres;
+}
+
 namespace detail {
 
 // In a map so shallow that a texel of a steep plane spans its depth a million times over, nothing can be told apart.
@@ -5526,6 +6086,147 @@ template <class T>
     MapBias<T> bias = bias_for(map, light, map_size, without_metres);
     bias.constant += depth_shift(map, light, point, detail::option(options.metres, T(0)));
     return detail::harmless(bias);
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/by_footprint.hpp ========
+//
+// Of several maps that hold a point, the one whose texels look smallest there. For maps of unlike techniques, none of
+// which is the sharpest everywhere: view-dependent maps on their planes with cascades around them, a warp and the plain
+// map behind it. For cascades alone by_map is as good and asks for no normal.
+//
+//        pixels a texel      The choice changes where two footprints are equal, so that is where texels change least;
+//   B \      / A             within `band` of there the two maps are mixed, half and half where they are equal, and
+//      \    /                shadows change over without a seam.
+//       \../  <- band
+//       /  \                 The light's law makes any such choice right: each map has every caster above its point.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// No map that holds the point, `margin_texels` from its sides, has a smaller footprint (major axis) than the first; the
+// earlier one where two are equal. The second is the next best, where its footprint is less than 1 + band times the
+// first's; its share falls from a half to none over the band. None of the maps: -1, the point is lit. A normal without
+// length chooses the first map that holds the point.
+template <class T>
+[[nodiscard]] inline LookUp<T> by_footprint(ShadowMap<T> const* maps, int count, int map_size, T margin_texels,
+                                            Mat4<T> const& eye_clip_from_world, Vec2<T> const& eye_pixels,
+                                            Vec3<T> const& point, Vec3<T> const& normal, T band = T(0)) noexcept {
+    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "no maps to choose from");
+    LookUp<T> best;
+    T first = T(0), second = T(0);
+    for (int i = 0; i < count; ++i) {
+        if (!contains(maps[i], map_size, margin_texels, point)) continue;
+        T const major =
+            footprint(eye_clip_from_world, eye_pixels, maps[i].clip_from_world, T(map_size), point, normal).major;
+        if (best.first < 0 || major < first) {
+            best.second = best.first;
+            second = first;
+            best.first = i;
+            first = major;
+        } else if (best.second < 0 || major < second) {
+            best.second = i;
+            second = major;
+        }
+    }
+    bool const mixes = best.second >= 0 && all_finite(&band, 1) && band > T(0) && first > T(0);
+    T const excess = mixes ? (second / first - T(1)) / band : T(1);
+    if (excess < T(1))
+        best.blend = T(0.5) * (T(1) - excess);
+    else
+        best.second = -1;
+    return best;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/map_ray.hpp ========
+//
+// The light that a matrix is a map of, read from the matrix: the way in which depth grows and the texel stays the same.
+// For checking at run time, against the light that it was meant for, any matrix from anywhere: a map that was not
+// redrawn when the sun moved, one that was transposed on its way to the shader, a light given as the way to it.
+//
+// It is the law of shadow maps, M * light = (0, 0, k, 0), asked at a point: NDC x = X.p / W.p is still along a
+// direction that is at a right angle to X - x W, and so for y; the cross product of the two is the ray.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct MapRay {
+    Vec3<T> direction{T(0)};  // world, unit: the way the light goes there; zero when `ok` is false
+    bool ok = false;
+};
+
+// The same for every scale of the matrix and in every convention, its depth order included. Not ok where the map does
+// not hold the point (w), and where it has no ray: a singular matrix, or one whose depth is the same along it.
+template <class T>
+[[nodiscard]] inline MapRay<T> map_ray(ShadowMap<T> const& map, Vec3<T> const& point) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front) return {};
+    Vec3<T> const w(row(map.clip_from_world, 3));
+    Vec3<T> const x = Vec3<T>(row(map.clip_from_world, 0)) - w * at.at.x;
+    Vec3<T> const y = Vec3<T>(row(map.clip_from_world, 1)) - w * at.at.y;
+    Vec3<T> const across = glm::cross(safe_normalize(x).direction, safe_normalize(y).direction);
+    Normalized<T> const ray = safe_normalize(across);
+    if (!ray.ok || !(ray.length > T(1e-6))) return {};
+    T const gain = gain_along(map.clip_from_world, at, ray.direction).z;
+    if (!all_finite(&gain, 1) || gain == T(0)) return {};
+    bool const forward = (gain > T(0)) == (map.clip.depth != DepthOrder::one_to_zero);
+    return {forward ? ray.direction : -ray.direction, true};
+}
+
+// The angle at `point` between the light and the light that the map is of, [0, pi]: 0 where the law holds, pi where
+// depth runs backwards. pi also where there is no ray to compare, or no light.
+template <class T>
+[[nodiscard]] inline T light_error_radians(ShadowMap<T> const& map, Light<T> const& light,
+                                           Vec3<T> const& point) noexcept {
+    MapRay<T> const ray = map_ray(map, point);
+    Vec3<T> const travel = unusable(light) ? Vec3<T>(T(0)) : -toward(light, point);
+    if (!ray.ok || !(glm::dot(travel, travel) > T(0))) return T(3.14159265358979323846264338327950288L);
+    // Not the arc cosine, which has lost half its digits where the angle is small.
+    return std::atan2(glm::length(glm::cross(ray.direction, travel)), glm::dot(ray.direction, travel));
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/stillness.hpp ========
+//
+// How a point moves through the texels from one frame's map to the next. Edges of shadows stand still as long as every
+// point moves by whole texels, and shimmer by what is left over. For watching maps at run time, any technique's: those
+// on a texel grid (texel_grid.hpp) have nothing left over, all others crawl, and this says by how much.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct TexelShift {
+    Vec2<T> texels{T(0)};    // from its place in the first map to that in the second
+    Vec2<T> off_grid{T(0)};  // of them, what is left beside the nearest whole number: [-1/2, 1/2]
+    bool ok = false;         // false: one of the maps does not hold the point (w), and both are 0
+};
+
+// Exact to the rounding of the two places. Both maps are map_size texels along a side; where the point lies beyond
+// them, the grid goes on.
+template <class T>
+[[nodiscard]] inline TexelShift<T> texel_shift(ShadowMap<T> const& before, ShadowMap<T> const& after, int map_size,
+                                               Vec3<T> const& point) noexcept {
+    Projected<T> const a = projected(texture_from_world(before), point, before.w_min);
+    Projected<T> const b = projected(texture_from_world(after), point, after.w_min);
+    if (!a.in_front || !b.in_front || map_size < 1) return {};
+    Vec2<T> const moved = (Vec2<T>(b.at) - Vec2<T>(a.at)) * T(map_size);
+    if (!all_finite(moved)) return {};
+    return {moved, moved - Vec2<T>(std::round(moved.x), std::round(moved.y)), true};
+}
+
+// The longer of the two parts that are left over, [0, 1/2]: 0 is still. 0 where the shift is not ok.
+template <class T>
+[[nodiscard]] inline T shimmer_texels(TexelShift<T> const& shift) noexcept {
+    return std::fmax(std::abs(shift.off_grid.x), std::abs(shift.off_grid.y));
 }
 
 }  // namespace v0
@@ -6160,7 +6861,7 @@ template <class T>
 //
 // What it is worth: a float buffer with reversed depth keeps eye depth to an ulp or so at any distance. With depth from
 // 0 to 1 the error grows as depth^2 / z_near: 6 mm at 100 m, 0.6 m at 1000 m for z_near = 0.1 m. The shader's twin is
-// glsl/stored_depth.glsl.
+// glsl/sample_depths.glsl.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -6848,14 +7549,20 @@ template <class T>
 
 namespace detail {
 
+// NOTE: no kernel has moments whose divisors are zero, but a texel that was never written may.
+template <class T>
+[[nodiscard]] inline T quotient_or_zero(T dividend, T divisor) noexcept {
+    return divisor != T(0) ? dividend / divisor : T(0);
+}
+
 // Coefficients c of 1, z, z^2 with Hankel(b) c = (1, x, x^2), through L D L^T.
 template <class T>
 [[nodiscard]] inline Vec3<T> solve_hankel(Vec4<T> const& b, T x) noexcept {
     T const variance = b.y - b.x * b.x, skew = b.z - b.x * b.y;
     T const spread = (b.w - b.y * b.y) * variance - skew * skew;  // det: D3 * D2
-    T const c1 = x - b.x, c2 = x * x - b.y - skew / variance * c1;
-    T const z = c2 * variance / spread;
-    T const y = (c1 - skew * z) / variance;
+    T const c1 = x - b.x, c2 = x * x - b.y - quotient_or_zero(skew, variance) * c1;
+    T const z = quotient_or_zero(c2 * variance, spread);
+    T const y = quotient_or_zero(c1 - skew * z, variance);
     return Vec3<T>(T(1) - b.x * y - b.y * z, y, z);
 }
 
@@ -6863,8 +7570,8 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T mass_before(Vec4<T> const& b, T x, T low, T high) noexcept {
     if (!(x > low)) return T(0);
-    if (!(x > high)) return (x * high - b.x * (x + high) + b.y) / ((high - low) * (x - low));
-    return T(1) - (low * high - b.x * (low + high) + b.y) / ((x - low) * (x - high));
+    if (!(x > high)) return quotient_or_zero(x * high - b.x * (x + high) + b.y, (high - low) * (x - low));
+    return T(1) - quotient_or_zero(low * high - b.x * (low + high) + b.y, (x - low) * (x - high));
 }
 
 }  // namespace detail
@@ -7454,8 +8161,9 @@ template <class T>
     T const facing = flat ? -n.z : n.x * x + n.y * y + n.z;
     T const steep = (std::abs(n.x) + std::abs(n.y)) * detail::turn_limit(frame);
     T const divisor = std::copysign(std::abs(facing) > steep ? std::abs(facing) : steep, facing);
-    if (divisor == T(0)) return {};
-    T const scale = T(1) / (flat ? divisor : divisor * depth);
+    T const inverse = flat ? divisor : divisor * depth;
+    if (inverse == T(0)) return {};
+    T const scale = T(1) / inverse;
     MicroQuad<T> quad;
     quad.q_x = n.x * scale;
     quad.q_y = n.y * scale;
@@ -7569,7 +8277,7 @@ struct PlainLanes {
     }
     // 1 / a to four roundings; anything where a is 0 or not finite.
     friend PlainLanes reciprocal(PlainLanes const& a) noexcept {
-        return each([&](int k) { return T(1) / a.lane[k]; });
+        return each([&](int k) { return a.lane[k] != T(0) ? T(1) / a.lane[k] : T(0); });
     }
     friend PlainLanes absolute(PlainLanes const& a) noexcept {
         return each([&](int k) { return std::abs(a.lane[k]); });
@@ -8595,8 +9303,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
     T scale[4];
     for (int i = 0; i < 4; ++i) {
         Vec4<T> const r = row(canonical, i);
-        scale[i] =
-            std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+        // Axes are made orthogonal to a rounding of their lengths, however small the products of their coordinates are.
+        scale[i] = largest_of(Vec3<T>(r)) * largest_of(Vec3<T>(source)) + std::abs(r.w * source.w);
     }
     // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
     Vec4<T> const image = canonical * source;
@@ -9370,3 +10078,214 @@ static_assert(sizeof(GpuIrregular) == 336);
 // ======== shadowmath/irregular.hpp ========
 //
 // Exact hard shadows on the CPU: the irregular z-buffer and frustum tracing, in the order in which data flows.
+
+// ======== shadowmath/slices_of_views.hpp ========
+//
+// The slices of thousands of views at once: what fit_slice_boxes gives for each, a third as dear again. For simulators
+// and for tools that try many cameras under one sun.
+//
+// Eight views are eight lanes: what they have in common is done once for all of them, and each operation is one
+// instruction for all eight.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+inline constexpr int views_at_once = 32;
+
+// Four slices of each of eight views, where all of these are ordinary perspective views; otherwise nothing is written,
+// and `ordinary` is false.
+template <class T>
+struct SlicesOfViews {
+    ViewVolume<T> const* views;
+    LightBasis<T> const& basis;
+    T lambda;
+    MapInLanes<T> const& map;
+    Mat4<T>* clip_from_world;
+    bool& ordinary;
+
+    static constexpr int n = views_at_once;
+    using Row = T[views_at_once];
+
+    [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
+    [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
+
+    // Four numbers of four views, from `from` on, each into its own row.
+    [[gnu::always_inline]] static void gather(T const* const (&from)[4], Row* rows, int first) noexcept {
+        Lanes<T> four[4] = {four_at(from[0]), four_at(from[1]), four_at(from[2]), four_at(from[3])};
+        transpose(four);
+        std::memcpy(rows[0] + first, &four[0], sizeof four[0]);
+        std::memcpy(rows[1] + first, &four[1], sizeof four[1]);
+        std::memcpy(rows[2] + first, &four[2], sizeof four[2]);
+        std::memcpy(rows[3] + first, &four[3], sizeof four[3]);
+    }
+
+    // Rows: position, right, up, forward, sides; near and far. False where not all views are perspective.
+    [[gnu::always_inline]] bool gather(Row (&of_views)[18]) const noexcept {
+        bool perspective = true;
+        for (int first = 0; first < n; first += 4) {
+            ViewVolume<T> const &a = views[first], &b = views[first + 1], &c = views[first + 2], &d = views[first + 3];
+            T const* pose[4] = {&a.pose.position.x, &b.pose.position.x, &c.pose.position.x, &d.pose.position.x};
+            gather({pose[0], pose[1], pose[2], pose[3]}, of_views, first);
+            gather({pose[0] + 4, pose[1] + 4, pose[2] + 4, pose[3] + 4}, of_views + 4, first);
+            gather({pose[0] + 8, pose[1] + 8, pose[2] + 8, pose[3] + 8}, of_views + 8, first);
+            gather({&a.left, &b.left, &c.left, &d.left}, of_views + 12, first);
+            Lanes<T> const z_near = Lanes<T>::of(a.z_near, b.z_near, c.z_near, d.z_near);
+            Lanes<T> const z_far = Lanes<T>::of(a.z_far, b.z_far, c.z_far, d.z_far);
+            std::memcpy(of_views[16] + first, &z_near, sizeof z_near);
+            std::memcpy(of_views[17] + first, &z_far, sizeof z_far);
+            perspective = perspective & (a.kind == ViewKind::perspective) & (b.kind == ViewKind::perspective) &
+                          (c.kind == ViewKind::perspective) & (d.kind == ViewKind::perspective);
+        }
+        return perspective;
+    }
+
+    [[gnu::always_inline]] static bool in_reach(Row const (&of_views)[18]) noexcept {
+        decltype(beyond_reach(T(0))) any = 0;
+        for (int row = 0; row < 16; ++row) {
+            Row const& of = of_views[row];
+            for (int i = 0; i < n; ++i) any |= beyond_reach(std::abs(of[i]));
+        }
+        for (int i = 0; i < n; ++i)
+            any |= beyond(of_views[16][i], least_metres<T>, farthest_metres<T>) |
+                   beyond(of_views[17][i], least_metres<T>, farthest_metres<T>);
+        return any >> (8 * sizeof any - 1) == 0;
+    }
+
+    [[gnu::always_inline]] static void roots_of(Row const& of, Row& roots) noexcept {
+        for (int first = 0; first < n; first += 4) {
+            Lanes<T> const four = root(four_at(of + first));
+            std::memcpy(roots + first, &four, sizeof four);
+        }
+    }
+
+    [[gnu::always_inline]] void operator()() const noexcept {
+        Row in[18];
+        ordinary = gather(in) && in_reach(in);
+        if (!ordinary) return;
+
+        Row plane[5], ratio, half, quarter, slope;
+        for (int i = 0; i < n; ++i) ratio[i] = in[17][i] / in[16][i];
+        roots_of(ratio, half);
+        roots_of(half, quarter);
+        std::uint32_t good[n];
+        constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
+        for (int i = 0; i < n; ++i) {
+            T const near_end = in[16][i], far_end = in[17][i], length = far_end - near_end, rest = T(1) - lambda;
+            plane[0][i] = near_end;
+            plane[1][i] = lambda * (near_end * quarter[i]) + rest * (near_end + length * T(0.25));
+            plane[2][i] = lambda * (near_end * half[i]) + rest * (near_end + length * T(0.5));
+            plane[3][i] = lambda * (near_end * (half[i] * quarter[i])) + rest * (near_end + length * T(0.75));
+            plane[4][i] = far_end;
+            slope[i] =
+                unit * (T(1) + (std::abs(in[12][i]) + std::abs(in[13][i]) + std::abs(in[14][i]) + std::abs(in[15][i])));
+        }
+        for (int i = 0; i < n; ++i)
+            good[i] = ((plane[0][i] < plane[1][i]) & (plane[1][i] < plane[2][i]) & (plane[2][i] < plane[3][i]) &
+                       (plane[3][i] < plane[4][i]) & (in[12][i] < in[13][i]) & (in[14][i] < in[15][i]) &
+                       (in[16][i] > in[17][i] * T(0x1p-64)))
+                          ? ~0u
+                          : 0u;
+        std::uint32_t all_good = ~0u;
+        for (int i = 0; i < n; ++i) all_good &= good[i];
+        ordinary = all_good != 0;
+        if (!ordinary) return;
+
+        Row eye_lo[3], eye_hi[3], slope_lo[3], slope_hi[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3<T> const a = axis == 0 ? basis.x : (axis == 1 ? basis.y : basis.depth);
+            Row &e0 = eye_lo[axis], &e1 = eye_hi[axis], &s0 = slope_lo[axis], &s1 = slope_hi[axis];
+            for (int i = 0; i < n; ++i) {
+                T const eye = a.x * in[0][i] + a.y * in[1][i] + a.z * in[2][i];
+                T const right = a.x * in[3][i] + a.y * in[4][i] + a.z * in[5][i];
+                T const up = a.x * in[6][i] + a.y * in[7][i] + a.z * in[8][i];
+                T const ahead = a.x * in[9][i] + a.y * in[10][i] + a.z * in[11][i];
+                T const b = right * in[12][i], c = right * in[13][i], d = up * in[14][i], e = up * in[15][i];
+                T const rounding = unit * (std::abs(in[0][i]) + std::abs(in[1][i]) + std::abs(in[2][i]));
+                e0[i] = eye - rounding;
+                e1[i] = eye + rounding;
+                s0[i] = ahead + (less(b, c) + less(d, e));
+                s1[i] = ahead + (more(b, c) + more(d, e));
+            }
+        }
+        ViewInLight<T> columns;
+        columns.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
+        columns.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
+        columns.z = Lanes<T>::of(basis.x.z, basis.y.z, basis.depth.z, T(0));
+        for (int slice = 0; slice < 4; ++slice) {
+            Row scale[3], offset[3];
+            Row const &from = plane[slice], &to = plane[slice + 1];
+            for (int axis = 0; axis < 3; ++axis) {
+                T const extent = map.extent[axis], middle = map.middle[axis];
+                Row const &e0 = eye_lo[axis], &e1 = eye_hi[axis], &s0 = slope_lo[axis], &s1 = slope_hi[axis];
+                Row &wide = scale[axis], &moved = offset[axis];
+                for (int i = 0; i < n; ++i) {
+                    T const rounding = to[i] * slope[i];
+                    T const lo = e0[i] + (less(from[i] * s0[i], to[i] * s0[i]) - rounding);
+                    T const hi = e1[i] + (more(from[i] * s1[i], to[i] * s1[i]) + rounding);
+                    T const of_map = extent / (hi - lo);
+                    wide[i] = of_map;
+                    moved[i] = middle - (lo + hi) * T(0.5) * of_map;
+                }
+            }
+            for (int first = 0; first < n; first += 4) {
+                Lanes<T> of_four[4] = {four_at(scale[0] + first), four_at(scale[1] + first), four_at(scale[2] + first),
+                                       all_four(T(0))};
+                Lanes<T> moved[4] = {four_at(offset[0] + first), four_at(offset[1] + first), four_at(offset[2] + first),
+                                     all_four(T(1))};
+                transpose(of_four);
+                transpose(moved);
+                Mat4<T>* const maps = clip_from_world + 4 * first + slice;
+                write_columns(columns, of_four[0], moved[0], maps[0]);
+                write_columns(columns, of_four[1], moved[1], maps[4]);
+                write_columns(columns, of_four[2], moved[2], maps[8]);
+                write_columns(columns, of_four[3], moved[3], maps[12]);
+            }
+        }
+    }
+};
+
+}  // namespace detail
+
+// clip_from_world[splits * i + k] is the map of slice k of view i: what fit_slice_boxes gives for the practical splits
+// of the view from z_near to z_far, to a few roundings; maps of slices that there are not, or of views that none can be
+// made for, are nowhere(). Says for how many views all maps are there. Four splits are the fast case; views that are
+// orthographic or have anything odd are made one by one, and so are the seven beside them.
+template <class T>
+[[nodiscard]] inline int fit_slice_boxes_of(ViewVolume<T> const* views, int view_count, LightBasis<T> const& basis,
+                                            int splits, T lambda, T border, ClipSpace clip,
+                                            Mat4<T>* clip_from_world) noexcept {
+    SHADOWMATH_ASSERT(view_count <= 0 || (views != nullptr && clip_from_world != nullptr),
+                      "fit_slice_boxes_of needs views, and room for their maps");
+    SHADOWMATH_ASSERT(splits >= 1 && splits <= max_splits, "fit_slice_boxes_of makes one to max_splits maps a view");
+    auto const weight = detail::order_of(lambda), free = detail::order_of(border);
+    bool const in_reach = detail::largest_of(basis.x) < T(4) && detail::largest_of(basis.y) < T(4) &&
+                          detail::largest_of(basis.depth) < T(4) && all_finite(basis.x) && all_finite(basis.y) &&
+                          all_finite(basis.depth);
+    bool const fast = splits == 4 && in_reach && weight > 0 && weight <= detail::order_of(T(1)) &&
+                      free >= detail::order_of(T(0)) && free <= detail::order_of(T(0.49));
+    detail::MapInLanes<T> const map = detail::map_in_lanes(clip, fast ? T(2) - T(4) * border : T(2));
+    int fitted = 0;
+    for (int first = 0; first < view_count; first += detail::views_at_once) {
+        int const count = view_count - first < detail::views_at_once ? view_count - first : detail::views_at_once;
+        Mat4<T>* const maps = clip_from_world + static_cast<std::ptrdiff_t>(first) * splits;
+        bool ordinary = false;
+        if (fast && count == detail::views_at_once)
+            detail::run_widely(detail::SlicesOfViews<T>{views + first, basis, lambda, map, maps, ordinary});
+        if (ordinary) {
+            fitted += count;
+            continue;
+        }
+        for (int i = 0; i < count; ++i) {
+            ViewVolume<T> const& view = views[first + i];
+            Splits<T> const planes = practical_splits(view.z_near, view.z_far, splits, lambda);
+            bool const good = fit_slice_boxes(view, basis, planes, border, clip, maps + i * splits);
+            for (int k = planes.count; k < splits; ++k) maps[i * splits + k] = nowhere<T>();
+            if (good && planes.count == splits) ++fitted;
+        }
+    }
+    return fitted;
+}
+
+}  // namespace v0
+}  // namespace shadowmath

@@ -14,42 +14,50 @@ layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 position_and_map;       // world; w: map, -1 none
 layout(location = 2) out vec4 normal_and_visibility;  // geometric, toward the eye
 
+// All sums are written out and kept, or drivers would fuse them differently and some pixels differ by one of 255.
 vec3 direction_or(vec3 v, vec3 fallback) {
-    float size = length(v);
-    return size > 0.0 ? v / size : fallback;
+    precise float size = sqrt(sm_dot(v, v));
+    precise vec3 direction = v / size;
+    return size > 0.0 ? direction : fallback;
 }
 
 // The triangle's own plane: interpolated normals belong to a surface that is not there.
 vec3 geometric_normal(vec3 to_eye) {
-    vec3 normal = direction_or(cross(dFdx(position_from_eye), dFdy(position_from_eye)), to_eye);
-    return dot(normal, to_eye) < 0.0 ? -normal : normal;
+    vec3 normal = direction_or(sm_cross(dFdx(position_from_eye), dFdy(position_from_eye)), to_eye);
+    return sm_dot(normal, to_eye) < 0.0 ? -normal : normal;
 }
 
 // 0 outside the spot light's cone, 1 inside, with a soft rim on its inner side.
 float cone(vec3 to_light) {
     float cos_outer = frame.spot_axis.w;
     if (cos_outer <= -2.0) return 1.0;
-    return smoothstep(cos_outer, mix(cos_outer, 1.0, 0.1), dot(-to_light, frame.spot_axis.xyz));
+    precise float rim = (1.0 - cos_outer) * 0.1;
+    precise float inward = clamp((sm_dot(-to_light, frame.spot_axis.xyz) - cos_outer) / rim, 0.0, 1.0);
+    precise float share = inward * inward * (3.0 - 2.0 * inward);
+    return share;
 }
 
 void main() {
-    vec3 point = frame.eye_position.xyz + position_from_eye;
+    precise vec3 point = frame.eye_position.xyz + position_from_eye;
+    precise vec3 way = frame.light.xyz - point;
     vec3 to_eye = direction_or(-position_from_eye, -frame.eye_forward.xyz);
-    vec3 to_light = direction_or(frame.light.w == 0.0 ? frame.light.xyz : frame.light.xyz - point, to_eye);
+    vec3 to_light = direction_or(frame.light.w == 0.0 ? frame.light.xyz : way, to_eye);
     vec3 plane_normal = geometric_normal(to_eye);
     float spot = cone(to_light);
 
-    Shadow shadow = shadow_at(point, plane_normal, dot(frame.eye_forward.xyz, position_from_eye));
+    Shadow shadow = shadow_at(point, plane_normal, sm_dot(frame.eye_forward.xyz, position_from_eye));
     if (spot == 0.0) shadow.visibility = 0.0;
 
     vec3 normal = direction_or(shading_normal, plane_normal);
-    if (dot(normal, plane_normal) < 0.0) normal = -normal;  // the back of an open mesh
-    float diffuse = max(dot(normal, to_light), 0.0);
-    float facing_half = max(dot(normal, direction_or(to_light + to_eye, normal)), 0.0);
-    float specular = diffuse > 0.0 ? frame.specular * pow(facing_half, frame.specular_power) : 0.0;
-    vec3 direct = frame.light_colour.rgb * ((diffuse + specular) * spot * shadow.visibility);
+    if (sm_dot(normal, plane_normal) < 0.0) normal = -normal;  // the back of an open mesh
+    float diffuse = max(sm_dot(normal, to_light), 0.0);
+    precise vec3 between = to_light + to_eye;
+    float facing_half = max(sm_dot(normal, direction_or(between, normal)), 0.0);
+    precise float specular = diffuse > 0.0 ? frame.specular * pow(facing_half, frame.specular_power) : 0.0;
+    precise vec3 direct = frame.light_colour.rgb * ((diffuse + specular) * spot * shadow.visibility);
+    precise vec3 shaded = (frame.ambient.rgb + direct) * reflectance;
 
-    colour = vec4((frame.ambient.rgb + direct) * reflectance, 1.0);
+    colour = vec4(shaded, 1.0);
     position_and_map = vec4(point, float(shadow.map < 0 ? shadow.map : frame.first_map + shadow.map));
     normal_and_visibility = vec4(plane_normal, shadow.visibility);
 }

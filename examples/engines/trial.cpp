@@ -4,7 +4,7 @@
 #include "backends/gl/gl_backend.hpp"
 #include "examples/gallery/measure.hpp"
 #include "examples/gallery/pictures.hpp"
-#include "examples/gallery/png.hpp"
+#include "examples/support/png.hpp"
 #include "scenes/scenes.hpp"
 
 #include <CLI/CLI.hpp>

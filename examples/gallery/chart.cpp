@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/chart.hpp"
 
-#include "examples/gallery/svg.hpp"
+#include "examples/support/svg.hpp"
 
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/footprint.hpp>
@@ -16,6 +16,10 @@
 #include <map>
 
 namespace shadowmath::gallery {
+
+using example::figure;
+using example::Points;
+using example::Svg;
 namespace {
 
 constexpr double z_near = 1.0, z_far = 1000.0;
@@ -198,7 +202,7 @@ std::string technique_chart(std::span<Technique const> techniques, Results const
 
     // Techniques differ by orders of magnitude, hence the logarithmic scale; less than its start is drawn at its start.
     double const row = 26.0, bottom = 40.0 + row * static_cast<double>(bars.size());
-    LogAxis const x{1e-4, std::max(1e-2, 1.1 * highest), 330.0, width - 84.0};
+    LogAxis const x{1e-4, std::max(1e-2, 1.1 * highest), 370.0, width - 84.0};
     Svg svg(width, bottom + 24.0, "Mis-shadowed pixels off edges for each technique, percent, on a logarithmic axis");
     for (double const tick : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
         if (tick > x.to_value) break;

@@ -3,7 +3,7 @@
 
 #include "examples/gallery/close_up_maps.hpp"
 #include "examples/gallery/close_up_truth.hpp"
-#include "examples/gallery/png.hpp"
+#include "examples/support/png.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +12,8 @@
 #include <cstdio>
 
 namespace shadowmath::gallery {
+
+using example::write_png;
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,6 +5,7 @@
 #include "backends/gl/gl_backend.hpp"
 #include "backends/vk/vk_backend.hpp"
 #include "examples/gallery/page.hpp"
+#include "examples/gallery/promises.hpp"
 #include "examples/gallery/results.hpp"
 #include "examples/gallery/run.hpp"
 #include "examples/gallery/staging.hpp"
@@ -69,6 +70,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->check([&](std::string const& text) {
             return parse_extent(text, settings.extent) ? "" : text + " is no size such as 960x540, 16 to 4096 a side";
         });
+    app.add_option("--flight", settings.flight, "frames of the camera's flight through each scene (300; quick: 12)")
+        ->check(CLI::Range(2, 3000));
     app.add_option("--seed", settings.seed, "of the built-in scenes")->capture_default_str();
     try {
         app.parse(argc, argv);
@@ -145,7 +148,15 @@ std::string agreement(Backends backends, Results const& results) {
     return names + ": " + std::to_string(unlike) + " of " + std::to_string(pixels) + " pixels unlike";
 }
 
-void make_gallery(Settings const& settings) {
+// Says what did not hold; the program's status. The gallery stands all the same, for it shows where.
+int judged(Backends backends, std::vector<std::string> const& broken) {
+    bool const counts = share_a_rasteriser(backends);
+    for (std::string const& sentence : broken)
+        std::cerr << "gallery: " << (counts ? "BROKEN: " : "not judged, for drivers differ: ") << sentence << '\n';
+    return counts && !broken.empty() ? 3 : 0;
+}
+
+int make_gallery(Settings const& settings) {
     Staging staging(settings.out);
     auto const scenes = load_scenes(settings);
     auto const backends = open_backends(settings.backend);
@@ -155,6 +166,7 @@ void make_gallery(Settings const& settings) {
     write_text(staging.folder() / "index.html", page(techniques(settings.quick), results, json));
     staging.publish();
     tell("wrote " + (settings.out / "index.html").string() + agreement(backends, results));
+    return judged(backends, broken_promises(results));
 }
 
 }  // namespace
@@ -166,8 +178,7 @@ int main(int argc, char** argv) {
     for (int const signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
     try {
         if (auto const status = parse(argc, argv, settings)) return *status;
-        make_gallery(settings);
-        return 0;
+        return make_gallery(settings);
     } catch (Interrupted const&) {
         std::cerr << "gallery: stopped; nothing was written\n";
         return 130;

@@ -12,19 +12,6 @@ namespace {
 using backend::Image;
 using backend::Rgba8;
 
-int difference(Rgba8 a, Rgba8 b) {
-    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
-}
-
-// An outline or the border of a shadow runs through the pixel or touches it: shading alone changes less from a pixel
-// to the next.
-bool is_edge(Image<Rgba8> const& picture, int x, int y) {
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.extent.height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.extent.width - 1); ++u)
-            if (difference(picture.at(u, v), picture.at(x, y)) > 4) return true;
-    return false;
-}
-
 // Depths lie in [0, 1], where the order of floats is that of their bits; + 0 makes one of both zeros.
 long ulps_between(float a, float b) {
     return std::labs(long{std::bit_cast<std::int32_t>(a + 0.0f)} - long{std::bit_cast<std::int32_t>(b + 0.0f)});
@@ -59,7 +46,7 @@ void compare(Parity& parity, Image<Rgba8> const& first, Image<Rgba8> const& othe
     parity.pixels += static_cast<long>(first.pixels.size());
     for (int y = 0; y < first.extent.height; ++y)
         for (int x = 0; x < first.extent.width; ++x) {
-            if (!is_unlike(first.at(x, y), other.at(x, y))) continue;
+            if (difference(first.at(x, y), other.at(x, y)) == 0) continue;
             ++parity.unlike_pixels;
             parity.unlike_off_edges += !is_edge(first, x, y);
         }
@@ -67,8 +54,15 @@ void compare(Parity& parity, Image<Rgba8> const& first, Image<Rgba8> const& othe
 
 }  // namespace
 
-bool is_unlike(Rgba8 a, Rgba8 b) {
-    return difference(a, b) > 0;
+int difference(Rgba8 a, Rgba8 b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+bool is_edge(Image<Rgba8> const& picture, int x, int y) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.extent.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.extent.width - 1); ++u)
+            if (difference(picture.at(u, v), picture.at(x, y)) > 4) return true;
+    return false;
 }
 
 void compare(Parity& parity, Drawn const& first, Drawn const& other) {

@@ -33,6 +33,11 @@ struct Parity {
 // Adds one technique in one view. Throws std::invalid_argument where the two are not of one size.
 void compare(Parity& parity, Drawn const& first, Drawn const& other);
 
-[[nodiscard]] bool is_unlike(backend::Rgba8 a, backend::Rgba8 b);
+// The largest difference of a channel, of 255.
+[[nodiscard]] int difference(backend::Rgba8 a, backend::Rgba8 b);
+
+// An outline or the border of a shadow runs through the pixel or touches it: shading alone changes less from a pixel
+// to the next.
+[[nodiscard]] bool is_edge(backend::Image<backend::Rgba8> const& picture, int x, int y);
 
 }  // namespace shadowmath::gallery

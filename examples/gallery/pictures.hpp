@@ -5,11 +5,15 @@
 #pragma once
 
 #include "examples/gallery/measure.hpp"
-#include "examples/gallery/png.hpp"
+#include "examples/support/png.hpp"
 
 #include <span>
 
 namespace shadowmath::gallery {
+
+using example::Colour;
+using example::IndexedPicture;
+using example::write_png;
 
 // The truth in grey; wrong pixels in red (false shadow) and blue (false light), pale ones along true edges.
 [[nodiscard]] IndexedPicture difference_picture(backend::Image<backend::Rgba8> const& truth,

@@ -2,6 +2,7 @@
 #include "examples/gallery/results.hpp"
 
 #include "examples/gallery/pictures.hpp"
+#include "examples/gallery/promises.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -68,7 +69,8 @@ Json to_json(WayRecord const& w) {
             {"unlike_texels", w.unlike_texels},
             {"largest_difference", w.largest_difference},
             {"pixels", w.pixels},
-            {"unlike_pixels", w.unlike_pixels}};
+            {"unlike_pixels", w.unlike_pixels},
+            {"unlike_off_edges", w.unlike_off_edges}};
 }
 
 Json to_json(Parity const& p) {
@@ -83,6 +85,36 @@ Json to_json(Parity const& p) {
             {"pixels", p.pixels},
             {"unlike_pixels", p.unlike_pixels},
             {"unlike_off_edges", p.unlike_off_edges}};
+}
+
+Json to_json(FitRecord const& f) {
+    return {{"scene", f.scene},
+            {"backend", f.backend},
+            {"pictures", f.pictures},
+            {"maps", f.maps},
+            {"unlike_maps", f.unlike_maps},
+            {"texels", f.texels},
+            {"unlike_texels", f.unlike_texels},
+            {"pixels", f.pixels},
+            {"unlike_pixels", f.unlike_pixels}};
+}
+
+Json to_json(FlightRecord const& f) {
+    return {{"scene", f.scene},
+            {"view", f.view},
+            {"policy", f.policy},
+            {"title", f.title},
+            {"stable", f.stable},
+            {"frames", f.frames},
+            {"map_size", f.map_size},
+            {"maps", f.maps},
+            {"points", f.points},
+            {"decisions", f.decisions},
+            {"flips", f.flips},
+            {"decisions_within", f.decisions_within},
+            {"flips_within", f.flips_within},
+            {"shimmer", shimmer(f)},
+            {"shimmer_within", shimmer_within(f)}};
 }
 
 Json to_json(Claim const& c) {
@@ -192,6 +224,10 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
         {"records", list(results.records)},
         {"ways", list(results.ways)},
         {"parity", list(results.parity)},
+        {"fits", list(results.fits)},
+        {"flights", list(results.flights)},
+        {"judged", share_a_rasteriser(backends)},
+        {"broken", broken_promises(results)},
         {"claims", list(results.claims)},
         {"close_ups", list(results.close_ups)},
         {"machine", {{"backends", drivers}, {"threads", std::thread::hardware_concurrency()}}},
@@ -203,6 +239,7 @@ std::string results_json(Settings const& settings, std::span<scenes::NamedScene 
           {"way_runs", settings.way_runs()},
           {"filter_radius", filter_radius},
           {"edge_radius_pixels", 1.25}}},
+        {"shown_on_every_driver", shown_on_every_driver},
         {"techniques", list(techniques(settings.quick))},
         {"scenes", shown},
         {"palette", {{"footprint", heat}, {"maps", tints}}},

@@ -9,8 +9,8 @@
 
 namespace shadowmath::gallery {
 
-// {"records": [...], "ways": [...], "parity": [...], "claims": [...], "machine": {...}, "settings": {...},
-//  "techniques": [...], "scenes": [...], "palette": {...}}
+// {"records": [...], "ways": [...], "parity": [...], "fits": [...], "flights": [...], "judged": true, "broken": [...],
+//  "claims": [...], "machine": {...}, "settings": {...}, "techniques": [...], "scenes": [...], "palette": {...}}
 [[nodiscard]] std::string results_json(Settings const& settings, std::span<scenes::NamedScene const> scenes,
                                        Backends backends, Results const& results);
 

@@ -52,7 +52,9 @@ public:
     }
 
     // One record a backend, each given to `take` as soon as it is there; parity holds one for each but the first.
-    void show(Technique const& technique, std::span<Parity> parity, std::function<void(Record)> const& take) {
+    // `beside`: the others' pictures are written too.
+    void show(Technique const& technique, bool beside, std::span<Parity> parity, std::span<FitRecord> fits,
+              std::function<void(Record)> const& take) {
         MapSet const maps = fit_on(*backends_.front(), technique, scene_, view_, settings_.extent);
         Drawn first;
         for (std::size_t i = 0; i < backends_.size(); ++i) {
@@ -70,10 +72,13 @@ public:
             for (std::string const& message : backend->take_messages())
                 record.note += (record.note.empty() ? "driver: " : "; driver: ") + message;
             Drawn drawn{rendered.frame.colour, maps_of(*backend, record.maps)};
+            if (!maps.device_fit.empty()) hold_against_cpp(fits[i], technique, *backend, drawn);
             if (is_first) {
                 write_pictures(technique, rendered.frame, drawn.maps, measured);
                 first = std::move(drawn);
             } else {
+                if (beside && std::ranges::count(shown_on_every_driver, technique.id) > 0)
+                    write_png(path(technique.id + "-picture-" + record.backend), drawn.picture);
                 record.unlike_first_backend_fraction = unlike_fraction(first.picture, drawn.picture);
                 compare(parity[i - 1], first, drawn);
             }
@@ -97,6 +102,17 @@ public:
     }
 
 private:
+    // Of the last fit of the backend and what was drawn with it. The C++ takes the depth that this backend drew.
+    void hold_against_cpp(FitRecord& record, Technique const& technique, backend::Backend& backend,
+                          Drawn const& drawn) const {
+        std::vector<backend::MapConstants> const fitted = backend.read_fit();
+        MapSet cpp = fit_on(backend, technique, scene_, view_, settings_.extent);
+        cpp.device_fit.clear();
+        draw_maps(backend, cpp, settings_.extent);
+        draw_picture(backend, cpp, settings_.extent);
+        compare(record, fitted, drawn, cpp, {backend.read_frame().colour, maps_of(backend, cpp.frame.map_count)});
+    }
+
     [[nodiscard]] fs::path path(std::string const& name) const {
         return folder_ / picture_path(scene_.name, view_.name, name);
     }
@@ -161,25 +177,37 @@ Results run(Settings const& settings, std::span<scenes::NamedScene const> scenes
         for (auto const& backend : backends) backend->upload(named.scene);
         std::vector<Parity> parity;
         for (auto const& backend : backends.subspan(1)) parity.push_back({named.scene.name, backend->info().name});
+        std::vector<FitRecord> fits;
+        for (auto const& backend : backends) fits.push_back({named.scene.name, backend->info().name});
         for (scenes::View const& view : chosen_views(named, settings)) {
+            bool const is_first = &view == named.views.data();
             ViewShow show(settings, named.scene, view, backends, oracle, folder);
             for (Technique const& technique : all) {
                 if (!serves(view)(technique)) continue;
-                show.show(technique, parity, [&](Record record) {
+                show.show(technique, is_first, parity, fits, [&](Record record) {
                     results.records.push_back(std::move(record));
                     Record const& kept = results.records.back();
                     tell(place(results.records.size(), total, kept) + percent(kept.mis_shadowed_fraction_off_edge) +
                          " off edge");
                 });
             }
-            if (&view != named.views.data()) continue;
+            if (!is_first) continue;
             tell("measuring the ways to draw the maps of " + named.scene.name);
             for (auto const& backend : backends) {
                 std::ranges::move(show.ways(*backend), std::back_inserter(results.ways));
                 for (std::string const& message : backend->take_messages()) tell("driver: " + message);
             }
+            if (view.has_spot) continue;
+            tell("flying through " + named.scene.name + ", " + std::to_string(settings.flight_frames()) + " frames");
+            std::ranges::move(
+                fly(*backends.front(), oracle, named.scene, view, settings.flight_frames(), settings.flight_map_size(),
+                    [&tell](int frame) {
+                        if (frame % 50 == 49) tell("frame " + std::to_string(frame + 1));
+                    }),
+                std::back_inserter(results.flights));
         }
         std::ranges::move(parity, std::back_inserter(results.parity));
+        std::ranges::move(fits, std::back_inserter(results.fits));
     }
     tell("measuring what the sources claim");
     results.claims = measure_claims(*backends.front(), settings.quick);

@@ -23,6 +23,10 @@ struct Settings {
 
     // Of every way to draw the maps: the first one also compiles.
     [[nodiscard]] int way_runs() const { return quick ? 1 : 2; }
+
+    int flight = 0;  // frames; 0: as the run is
+    [[nodiscard]] int flight_frames() const { return flight > 0 ? flight : (quick ? 12 : 300); }
+    [[nodiscard]] int flight_map_size() const { return quick ? 512 : 1024; }
 };
 
 }  // namespace shadowmath::gallery

@@ -7,10 +7,14 @@
 #include "backends/backend.hpp"
 #include "scenes/view.hpp"
 
+#include <shadowmath/cascades.hpp>
+#include <shadowmath/choose.hpp>
+
 #include <glm/mat4x4.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +59,18 @@ struct MapSet {
 
 [[nodiscard]] MapSet fit(Technique const& technique, backend::Scene const& scene, scenes::View const& view,
                          backend::Extent extent, backend::Image<float> const& eye_depth = {});
+
+// Cascades under way: `last` are those of the frame before, and become this frame's. The gallery sets the options that
+// its passes ask for.
+[[nodiscard]] MapSet fit_cascade_maps(backend::Scene const& scene, scenes::View const& view, backend::Extent extent,
+                                      CascadeOptions<double> options, Cascades<double>& last);
+
+// The options that choose.hpp finds for what is seen of a view.
+[[nodiscard]] CascadeOptions<double> choose_cascades(backend::Scene const& scene, scenes::View const& view,
+                                                     backend::Extent extent,
+                                                     std::span<SurfacePoint<double> const> samples,
+                                                     CascadeOptions<double> const& options,
+                                                     ChoiceLimits<double> const& limits);
 
 // Objects of the scene that show in each split of a view, by index, and last those beyond the last split.
 using SplitObjects = std::vector<std::vector<std::uint32_t>>;

@@ -154,6 +154,37 @@ template <class T>
     return all_finite(&offset, 1) ? offset : T(0);
 }
 
+// The same for any map, warped and view-dependent ones included, whose texels differ from place to place: the least
+// metres along the unit `normal` with which the plane through `point` does not shadow itself in this map. Exact for
+// suns: on a plane stored depth is linear in texels, and w is linear in the metres. Of a spot to first order in the
+// offset over the distance to it. At most `most_metres`, which is also its value where the map is edge-on to the plane,
+// and where a warp's own w runs away from the offset; 0 where the plane faces away, or the map does not hold the point.
+template <class T>
+[[nodiscard]] inline T normal_offset_at(ShadowMap<T> const& map, Light<T> const& light, int map_size, int filter_radius,
+                                        Vec3<T> const& point, Vec3<T> const& normal, T most_metres) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front || !all_finite(normal) || !all_finite(&most_metres, 1) || !(most_metres > T(0)) ||
+        unusable(light) || !(depth_gain(map, light) > T(0)))
+        return T(0);
+    T const cosine = glm::dot(normal, toward(light, point));
+    if (!(cosine > T(0))) return T(0);
+    DepthSlope<T> const s = slope(map, map_size, point, normal, T(1e6));
+    // What the kernel needs of clip depth, before the division by w.
+    T const needed = kernel_reach_texels<T>(filter_radius) * (std::abs(s.x) + std::abs(s.y)) / depth_gain(map, light);
+    T offset = T(0);
+    if (light.kind == LightKind::directional) {
+        // needed * (w + offset * gain of w) = offset / cosine
+        T const gain_of_w = glm::dot(Vec3<T>(row(map.clip_from_world, 3)), normal);
+        T const left = T(1) - needed * cosine * gain_of_w;
+        offset = left > T(0) ? bounded_quotient(needed * cosine * at.w, left, most_metres) : most_metres;
+    } else {
+        // The way to the lamp, shortened by the share s, gains k s / (1 - s).
+        T const distance = safe_normalize(point - light.position).length, raised = needed * at.w;
+        offset = cosine * distance * bounded_quotient(raised, T(1) + raised, T(1));
+    }
+    return all_finite(&offset, 1) && offset < most_metres ? offset : most_metres;
+}
+
 namespace detail {
 
 // In a map so shallow that a texel of a steep plane spans its depth a million times over, nothing can be told apart.

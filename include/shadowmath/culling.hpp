@@ -66,6 +66,12 @@ template <class T>
     return all_finite(v) && largest_of(v) < T(0x1p60);
 }
 
+// Not empty, and in reach.
+template <class T>
+[[nodiscard]] inline bool is_ordinary(Aabb<T> const& box) noexcept {
+    return all_in_reach(box.lo) && all_in_reach(box.hi) && !is_empty(box);
+}
+
 // lo > hi, infinite ends included; false where one is NaN, and no signal of one.
 template <class T>
 [[nodiscard]] inline bool are_crossed(T const& lo, T const& hi) noexcept {
@@ -102,18 +108,19 @@ struct Reaches {
 // there is neither loop nor branch.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t bit_if_inside(typename CasterMaps<T>::Bundle const& bundle,
-                                                                     Reaches<T> const& reach, int place) noexcept {
+                                                                     Reaches<T> const& reach, int place,
+                                                                     std::uint32_t bit) noexcept {
     bool const inside = (reach.left >= bundle.least[0][place]) & (reach.right >= bundle.least[1][place]) &
                         (reach.bottom >= bundle.least[2][place]) & (reach.top >= bundle.least[3][place]) &
                         (reach.last >= bundle.least[4][place]);
-    return inside ? bundle.bit[place] : 0u;
+    return inside ? bit : 0u;
 }
 
 template <class T>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
                                                                    Reaches<T> const& reach) noexcept {
-    return bit_if_inside<T>(bundle, reach, 0) | bit_if_inside<T>(bundle, reach, 1) |
-           bit_if_inside<T>(bundle, reach, 2) | bit_if_inside<T>(bundle, reach, 3);
+    return bit_if_inside<T>(bundle, reach, 0, bundle.bit[0]) | bit_if_inside<T>(bundle, reach, 1, bundle.bit[1]) |
+           bit_if_inside<T>(bundle, reach, 2, bundle.bit[2]) | bit_if_inside<T>(bundle, reach, 3, bundle.bit[3]);
 }
 
 template <class T>
@@ -222,59 +229,94 @@ namespace detail {
 
 inline constexpr int boxes_at_once = 64;
 
-// One block of boxes; does nothing where a box is not in reach, and says so.
+// What the reach of a box along a normal must grow by, as a part of the size of its largest coordinate: of the three
+// products each may be off by the 10 epsilon of box_slack.
+template <class T>
+inline constexpr T reach_slack = T(32) * std::numeric_limits<T>::epsilon();
+
+// One block of boxes. Masks of those that are empty, not finite or beyond reach are none; `odd` says that there are
+// such.
 template <class T>
 struct MaskBlock {
     CasterMaps<T> const& maps;
     BoxArrays<T> const& boxes;
     MapMask* masks;
-    bool& in_reach;
+    std::uint32_t const (&bits)[max_caster_maps][4];  // of each bundle: as wide as numbers are
+    bool& odd;
+
+    // How far box i reaches along a normal, by the end of each axis that lies farther along it.
+    struct Side {
+        Vec3<T> normal;
+        T const *x, *y, *z;
+        [[gnu::always_inline]] T operator()(int i) const noexcept {
+            return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
+        }
+    };
+    [[gnu::always_inline]] Side side_of(Vec3<T> const& normal) const noexcept {
+        return {normal, normal.x > T(0) ? boxes.hi_x : boxes.lo_x, normal.y > T(0) ? boxes.hi_y : boxes.lo_y,
+                normal.z > T(0) ? boxes.hi_z : boxes.lo_z};
+    }
 
     [[gnu::always_inline]] inline void operator()() const noexcept {
         constexpr int n = boxes_at_once;
-        T grown[n], first_x[n], first_y[n], first_z[n], last_x[n], last_y[n], last_z[n];
-        std::uint32_t mask[n], full[n];  // full: all ones, or zero for an empty box
+        T grown[n];
+        std::uint32_t any_odd = 0;
         decltype(beyond_reach(T(0))) beyond = 0;
+        auto const less = [](T a, T b) { return a < b ? a : b; };
+        auto const more = [](T a, T b) { return a > b ? a : b; };
         for (int i = 0; i < n; ++i) {
-            T const sizes = std::abs(boxes.lo_x[i]) + std::abs(boxes.hi_x[i]) + std::abs(boxes.lo_y[i]) +
-                            std::abs(boxes.hi_y[i]) + std::abs(boxes.lo_z[i]) + std::abs(boxes.hi_z[i]);
-            beyond |= beyond_reach(sizes);
-            grown[i] = box_slack<T> * sizes;
-            mask[i] = 0;
+            T const lo = less(less(boxes.lo_x[i], boxes.lo_y[i]), boxes.lo_z[i]);
+            T const hi = more(more(boxes.hi_x[i], boxes.hi_y[i]), boxes.hi_z[i]);
+            T const largest = more(hi, -lo);
+            // NOTE: an end that is not a number is in no order, so that `largest` need not know it.
+            bool const full =
+                (boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]);
+            any_odd |= full ? 0u : ~0u;
+            beyond |= beyond_reach(largest);
+            grown[i] = reach_slack<T> * largest;
         }
-        in_reach = beyond >> (8 * sizeof beyond - 1) == 0;
-        if (!in_reach) return;
-        for (int i = 0; i < n; ++i) {
-            T const lo_x = boxes.lo_x[i], lo_y = boxes.lo_y[i], lo_z = boxes.lo_z[i];
-            T const hi_x = boxes.hi_x[i], hi_y = boxes.hi_y[i], hi_z = boxes.hi_z[i];
-            full[i] = ((lo_x <= hi_x) & (lo_y <= hi_y) & (lo_z <= hi_z)) ? ~0u : 0u;
-            first_x[i] = lo_x - grown[i];
-            first_y[i] = lo_y - grown[i];
-            first_z[i] = lo_z - grown[i];
-            last_x[i] = hi_x + grown[i];
-            last_y[i] = hi_y + grown[i];
-            last_z[i] = hi_z + grown[i];
-        }
+        odd = any_odd != 0 || beyond >> (8 * sizeof beyond - 1) != 0;
+        if (maps.bundle_count == 0) std::memset(masks, 0, n * sizeof *masks);
         for (int b = 0; b < maps.bundle_count; ++b) {
-            typename CasterMaps<T>::Bundle const bundle = maps.bundle[b];
-            struct Side {
-                Vec3<T> normal;
-                T const *x, *y, *z;  // the end of the boxes that lies farther along it
-                [[gnu::always_inline]] T operator()(int i) const noexcept {
-                    return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
-                }
-            };
-            auto const side_of = [&](Vec3<T> const& normal) {
-                return Side{normal, normal.x > T(0) ? last_x : first_x, normal.y > T(0) ? last_y : first_y,
-                            normal.z > T(0) ? last_z : first_z};
-            };
+            typename CasterMaps<T>::Bundle const& bundle = maps.bundle[b];
+            // NOTE: side by side, five sides want more registers than there are.
+            std::uint32_t const(&bit)[4] = bits[b];
             Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
             Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
-            Side const end = side_of(bundle.normal[4]);
-            for (int i = 0; i < n; ++i)
-                mask[i] |= bits_inside<T>(bundle, {left(i), right(i), bottom(i), top(i), end(i)});
+            Side const last = side_of(bundle.normal[4]);
+            T const(&from_left)[4] = bundle.least[0], (&from_right)[4] = bundle.least[1];
+            T const(&from_bottom)[4] = bundle.least[2], (&from_top)[4] = bundle.least[3];
+            T const(&from_last)[4] = bundle.least[4];
+            std::uint32_t in_0[n], in_1[n], in_2[n], in_3[n];  // all ones, or zero
+            for (int i = 0; i < n; ++i) {
+                T const a = left(i) + grown[i], c = right(i) + grown[i];
+                in_0[i] = ((a >= from_left[0]) & (c >= from_right[0])) ? ~0u : 0u;
+                in_1[i] = ((a >= from_left[1]) & (c >= from_right[1])) ? ~0u : 0u;
+                in_2[i] = ((a >= from_left[2]) & (c >= from_right[2])) ? ~0u : 0u;
+                in_3[i] = ((a >= from_left[3]) & (c >= from_right[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = bottom(i) + grown[i], c = top(i) + grown[i];
+                in_0[i] &= ((a >= from_bottom[0]) & (c >= from_top[0])) ? ~0u : 0u;
+                in_1[i] &= ((a >= from_bottom[1]) & (c >= from_top[1])) ? ~0u : 0u;
+                in_2[i] &= ((a >= from_bottom[2]) & (c >= from_top[2])) ? ~0u : 0u;
+                in_3[i] &= ((a >= from_bottom[3]) & (c >= from_top[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = last(i) + grown[i];
+                in_0[i] &= a >= from_last[0] ? ~0u : 0u;
+                in_1[i] &= a >= from_last[1] ? ~0u : 0u;
+                in_2[i] &= a >= from_last[2] ? ~0u : 0u;
+                in_3[i] &= a >= from_last[3] ? ~0u : 0u;
+            }
+            auto const bits_of = [&](int i) {
+                return (in_0[i] & bit[0]) | (in_1[i] & bit[1]) | (in_2[i] & bit[2]) | (in_3[i] & bit[3]);
+            };
+            if (b == 0)
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(bits_of(i));
+            else
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(masks[i] | bits_of(i));
         }
-        for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(mask[i] & full[i]);
     }
 };
 
@@ -289,14 +331,20 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
         count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
                        boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
         "caster_masks needs six arrays of boxes and one of masks");
+    std::uint32_t bits[max_caster_maps][4];
+    for (int b = 0; b < maps.bundle_count; ++b)
+        for (int place = 0; place < 4; ++place) bits[b][place] = maps.bundle[b].bit[place];
     constexpr int n = detail::boxes_at_once;
     for (int begin = 0; begin < count; begin += n) {
         BoxArrays<T> const block = boxes_from(boxes, begin);
         int const length = count - begin < n ? count - begin : n;
-        bool in_reach = false;
-        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, in_reach});
-        if (in_reach) continue;
-        for (int i = 0; i < length; ++i) masks[begin + i] = caster_mask(maps, box_at(block, i));
+        bool odd = false;
+        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, bits, odd});
+        if (length == n && !odd) continue;
+        for (int i = 0; i < length; ++i) {
+            Aabb<T> const box = box_at(block, i);
+            if (length < n || !detail::is_ordinary(box)) masks[begin + i] = caster_mask(maps, box);
+        }
     }
 }
 

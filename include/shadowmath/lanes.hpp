@@ -5,6 +5,22 @@
 #pragma once
 
 #include <shadowmath/config.hpp>
+#include <shadowmath/reach.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+// One instruction each, where the compiler lets them be named.
+#if defined(__SSE2__) && defined(__has_builtin)
+#if __has_builtin(__builtin_ia32_sqrtps) && __has_builtin(__builtin_ia32_minps) && __has_builtin(__builtin_ia32_maxps)
+#define SHADOWMATH_NAMES_SSE 1
+#endif
+#endif
+#ifndef SHADOWMATH_NAMES_SSE
+#define SHADOWMATH_NAMES_SSE 0
+#endif
 
 namespace shadowmath {
 inline namespace v0 {
@@ -33,6 +49,9 @@ struct Lanes {
         auto const less = [](T x, T y) { return x < y ? x : y; };
         return {{less(a.at[0], b.at[0]), less(a.at[1], b.at[1]), less(a.at[2], b.at[2]), less(a.at[3], b.at[3])}};
     }
+    friend Lanes root(Lanes const& a) noexcept {
+        return {{std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3])}};
+    }
     friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
         auto const more = [](T x, T y) { return x > y ? x : y; };
         return {{more(a.at[0], b.at[0]), more(a.at[1], b.at[1]), more(a.at[2], b.at[2]), more(a.at[3], b.at[3])}};
@@ -53,11 +72,128 @@ struct Lanes<float> {
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
     friend Lanes operator/(Lanes const& a, Lanes const& b) noexcept { return {a.at / b.at}; }
-    friend Lanes least(Lanes const& a, Lanes const& b) noexcept { return {a.at < b.at ? a.at : b.at}; }
-    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept { return {a.at > b.at ? a.at : b.at}; }
+#if SHADOWMATH_NAMES_SSE
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        return {__builtin_ia32_minps(a.at, b.at)};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        return {__builtin_ia32_maxps(a.at, b.at)};
+    }
+    friend Lanes root(Lanes const& a) noexcept {
+        return {__builtin_ia32_sqrtps(a.at)};
+    }
+#else
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        return {a.at < b.at ? a.at : b.at};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        return {a.at > b.at ? a.at : b.at};
+    }
+    friend Lanes root(Lanes const& a) noexcept {
+        return of(std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3]));
+    }
+#endif
 };
 
 #endif
+
+// The last three of the four, and `after` them.
+// NOTE: to be preferred to loading them where the four have just been written one by one.
+template <class T>
+[[nodiscard]] inline Lanes<T> moved_up(Lanes<T> const& four, T after) noexcept {
+    return Lanes<T>::of(four[1], four[2], four[3], after);
+}
+
+// Rows for columns.
+template <class T>
+inline void transpose(Lanes<T> (&rows)[4]) noexcept {
+    Lanes<T> const a = rows[0], b = rows[1], c = rows[2], d = rows[3];
+    for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
+}
+
+// Whether the numbers that are not negative grow from place to place, as order_of (reach.hpp) has it.
+template <class T>
+[[nodiscard]] inline bool in_order(Lanes<T> const& less, Lanes<T> const& more) noexcept {
+    bool good = true;
+    for (int i = 0; i < 4; ++i) good = good & (order_of(less[i]) < order_of(more[i]));
+    return good;
+}
+
+// Whether any of them is beyond reach (reach.hpp), for several at a time.
+template <class T>
+class BeyondReach {
+public:
+    void look_at(Lanes<T> const& four) noexcept {
+        for (int i = 0; i < 4; ++i) beyond_ |= beyond_reach(std::abs(four[i]));
+    }
+    [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
+
+private:
+    decltype(beyond_reach(T(0))) beyond_ = 0;
+};
+
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
+
+#if defined(__clang__) || __GNUC__ >= 12
+template <>
+[[nodiscard]] inline Lanes<float> moved_up(Lanes<float> const& four, float after) noexcept {
+    return {__builtin_shufflevector(four.at, Lanes<float>::Register{after}, 1, 2, 3, 4)};
+}
+
+template <>
+inline void transpose(Lanes<float> (&rows)[4]) noexcept {
+    auto const a = __builtin_shufflevector(rows[0].at, rows[1].at, 0, 4, 1, 5);
+    auto const b = __builtin_shufflevector(rows[2].at, rows[3].at, 0, 4, 1, 5);
+    auto const c = __builtin_shufflevector(rows[0].at, rows[1].at, 2, 6, 3, 7);
+    auto const d = __builtin_shufflevector(rows[2].at, rows[3].at, 2, 6, 3, 7);
+    rows[0].at = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+    rows[1].at = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+    rows[2].at = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+    rows[3].at = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+}
+#endif
+
+template <>
+[[nodiscard]] inline bool in_order(Lanes<float> const& less, Lanes<float> const& more) noexcept {
+    using Bits [[gnu::vector_size(16)]] = std::int32_t;
+    Bits a, b;
+    std::memcpy(&a, &less, sizeof a);
+    std::memcpy(&b, &more, sizeof b);
+    // -0 becomes 0.
+    auto const good = (a & ~(a == std::numeric_limits<std::int32_t>::min())) < b;
+    std::uint64_t halves[2];
+    std::memcpy(halves, &good, sizeof halves);
+    return (halves[0] & halves[1]) == ~std::uint64_t(0);
+}
+
+template <>
+class BeyondReach<float> {
+public:
+    void look_at(Lanes<float> const& four) noexcept {
+        Bits bits;
+        std::memcpy(&bits, &four, sizeof bits);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x5d800000u);
+    }
+    [[nodiscard]] bool any() const noexcept {
+        std::uint64_t halves[2];
+        std::memcpy(halves, &beyond_, sizeof halves);
+        return ((halves[0] | halves[1]) & 0x8000000080000000u) != 0;
+    }
+
+private:
+    using Bits [[gnu::vector_size(16)]] = std::uint32_t;
+    Bits beyond_ = {};
+};
+
+#endif
+
+template <class T>
+[[nodiscard]] inline Lanes<T> four_at(T const* values) noexcept {
+    Lanes<T> four;
+    static_assert(sizeof four == 4 * sizeof(T), "numbers without a gap");
+    std::memcpy(&four, values, sizeof four);
+    return four;
+}
 
 template <class T>
 [[nodiscard]] inline Lanes<T> all_four(T value) noexcept {

@@ -33,6 +33,8 @@ template <class T>
 // extent, or so small that its inverse overflows, maps everything outside; fits see to it that theirs are not.
 template <class T>
 [[nodiscard]] inline Mat4<T> clip_from_world(LightBox<T> const& box, ClipSpace clip) noexcept {
+    bool const has_extent = box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
+    if (!has_extent) return nowhere<T>();
     // Centre and half extent instead of a product of matrices: one rounding each.
     auto const axis = [](Vec3<T> const& direction, T lo, T hi) {
         T const scale = T(2) / (hi - lo);
@@ -42,8 +44,7 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(axis(box.basis.x, box.lo.x, box.hi.x), axis(box.basis.y, box.lo.y, box.hi.y),
                   Vec4<T>(box.basis.depth * depth_scale, -box.depth_lo * depth_scale), Vec4<T>(T(0), T(0), T(0), T(1)));
-    bool const has_extent = box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
-    return has_extent && all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
+    return all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
 }
 
 // The same map for points given relative to `origin` (a camera-relative renderer): M * translate(origin). Compute it in

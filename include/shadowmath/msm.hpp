@@ -57,14 +57,20 @@ template <class T>
 
 namespace detail {
 
+// NOTE: no kernel has moments whose divisors are zero, but a texel that was never written may.
+template <class T>
+[[nodiscard]] inline T quotient_or_zero(T dividend, T divisor) noexcept {
+    return divisor != T(0) ? dividend / divisor : T(0);
+}
+
 // Coefficients c of 1, z, z^2 with Hankel(b) c = (1, x, x^2), through L D L^T.
 template <class T>
 [[nodiscard]] inline Vec3<T> solve_hankel(Vec4<T> const& b, T x) noexcept {
     T const variance = b.y - b.x * b.x, skew = b.z - b.x * b.y;
     T const spread = (b.w - b.y * b.y) * variance - skew * skew;  // det: D3 * D2
-    T const c1 = x - b.x, c2 = x * x - b.y - skew / variance * c1;
-    T const z = c2 * variance / spread;
-    T const y = (c1 - skew * z) / variance;
+    T const c1 = x - b.x, c2 = x * x - b.y - quotient_or_zero(skew, variance) * c1;
+    T const z = quotient_or_zero(c2 * variance, spread);
+    T const y = quotient_or_zero(c1 - skew * z, variance);
     return Vec3<T>(T(1) - b.x * y - b.y * z, y, z);
 }
 
@@ -72,8 +78,8 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T mass_before(Vec4<T> const& b, T x, T low, T high) noexcept {
     if (!(x > low)) return T(0);
-    if (!(x > high)) return (x * high - b.x * (x + high) + b.y) / ((high - low) * (x - low));
-    return T(1) - (low * high - b.x * (low + high) + b.y) / ((x - low) * (x - high));
+    if (!(x > high)) return quotient_or_zero(x * high - b.x * (x + high) + b.y, (high - low) * (x - low));
+    return T(1) - quotient_or_zero(low * high - b.x * (low + high) + b.y, (x - low) * (x - high));
 }
 
 }  // namespace detail

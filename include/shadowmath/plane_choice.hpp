@@ -4,9 +4,10 @@
 // far the map's texels are from the picture's pixels, as the mean square of the logarithms of the footprint's axes. 0
 // is one texel a pixel everywhere, 0.48 twice too long along one axis.
 //
-//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points
+//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points; and
+//                    with each point's weight that of its pixels, so that the far does not outvote the near
 //   least squares    through the points as they lie: slopes, walls
-//   least distortion the better of the two, moved along its normal until the number is least
+//   least distortion the best of these, moved along its normal until the number is least
 //
 // A plane that changes makes shadows jump: the one of the last frame is kept until another is better by a tenth.
 //
@@ -115,6 +116,38 @@ template <class T>
     return {unit, count > 0 ? -height[count / 2] : T(0)};
 }
 
+// Across `normal`, with half of the weight on either side: one over the square of a point's eye depth, as for
+// least_squares_plane. Points behind the eye have none. Otherwise as median_plane.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> weighted_median_plane(ViewVolume<T> const& view, Vec3<T> const& normal,
+                                                          SurfacePoint<T> const* samples, int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    std::array<T, max_samples> height, weight;
+    std::size_t count = 0;
+    T total = T(0);
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        T const depth = eye_depth(view, samples[i].point);
+        if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
+        T const h = glm::dot(unit, samples[i].point), w = T(1) / std::fmax(depth * depth, T(1e-12));
+        std::size_t at = count++;
+        for (; at > 0 && height[at - 1] > h; --at) {
+            height[at] = height[at - 1];
+            weight[at] = weight[at - 1];
+        }
+        height[at] = h;
+        weight[at] = w;
+        total += w;
+    }
+    T below = T(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        below += weight[i];
+        if (below * T(2) >= total) return {unit, -height[i]};
+    }
+    return {unit, T(0)};
+}
+
 // Mean square of ln(major) and ln(minor) over the samples, of a map of as many texels as the picture has pixels, before
 // any crop. Points that the plane cannot serve count as footprint_limit. The largest number where nothing is served, or
 // the plane is none.
@@ -140,9 +173,9 @@ template <class T>
     return served > 0 ? sum / T(count) : worst;
 }
 
-// The plane of least distortion among: across `ground_normal` at the median height, the least squares, and the better
-// one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no other
-// has less than 1 - `hysteresis` times its distortion.
+// The plane of least distortion among: across `ground_normal` at the two median heights, the least squares, and the
+// best one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no
+// other has less than 1 - `hysteresis` times its distortion.
 template <class T>
 [[nodiscard]] inline PlaneChoice<T> choose_plane(ViewVolume<T> const& view, Light<T> const& light,
                                                  SurfacePoint<T> const* samples, int sample_count,
@@ -157,6 +190,7 @@ template <class T>
         best = {plane, distortion, false, true};
     };
     consider(median_plane(ground_normal, samples, sample_count));
+    consider(weighted_median_plane(view, ground_normal, samples, sample_count));
     consider(least_squares_plane(view, samples, sample_count));
     if (best.visible) {
         Vec3<T> const normal = best.plane.normal;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -48,6 +49,41 @@ template <class T>
 }
 [[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
     return value < 0x1p60L ? 0 : ~std::uint64_t(0);
+}
+
+// The top bit is set where a value is not from `lo` to `hi`, lo > 0; likewise by its bits.
+[[nodiscard]] inline std::uint32_t beyond(float value, float lo, float hi) noexcept {
+    std::uint32_t bits, least, most;
+    std::memcpy(&bits, &value, sizeof bits);
+    std::memcpy(&least, &lo, sizeof least);
+    std::memcpy(&most, &hi, sizeof most);
+    return bits | (bits - least) | (most - bits);
+}
+[[nodiscard]] inline std::uint64_t beyond(double value, double lo, double hi) noexcept {
+    std::uint64_t bits, least, most;
+    std::memcpy(&bits, &value, sizeof bits);
+    std::memcpy(&least, &lo, sizeof least);
+    std::memcpy(&most, &hi, sizeof most);
+    return bits | (bits - least) | (most - bits);
+}
+[[nodiscard]] inline std::uint64_t beyond(long double value, long double lo, long double hi) noexcept {
+    return value >= lo && value <= hi ? 0 : ~std::uint64_t(0);
+}
+
+// Numbers that are not negative by their bits: these order as the numbers do, and above all of them come infinity and
+// NaN. Negative numbers come below all others, but for -0, which is 0.
+[[nodiscard]] inline std::int32_t order_of(float value) noexcept {
+    std::int32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits == std::numeric_limits<std::int32_t>::min() ? 0 : bits;
+}
+[[nodiscard]] inline std::int64_t order_of(double value) noexcept {
+    std::int64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits == std::numeric_limits<std::int64_t>::min() ? 0 : bits;
+}
+[[nodiscard]] inline long double order_of(long double value) noexcept {
+    return value == value ? value : std::numeric_limits<long double>::infinity();
 }
 
 // Unit to a thousandth, as light_basis makes them for every light that is usable.

@@ -38,6 +38,7 @@
 // Other ways to look.
 #include <shadowmath/map_rows.hpp>
 #include <shadowmath/plane_choice.hpp>
+#include <shadowmath/plane_set.hpp>
 #include <shadowmath/points.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
@@ -52,8 +53,11 @@
 // What a matrix is worth, and needs.
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/bias.hpp>
+#include <shadowmath/by_footprint.hpp>
 #include <shadowmath/culling.hpp>
 #include <shadowmath/footprint.hpp>
+#include <shadowmath/map_ray.hpp>
+#include <shadowmath/stillness.hpp>
 #include <shadowmath/tangent.hpp>
 
 // The one call.

@@ -23,8 +23,10 @@
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>
 #include <shadowmath/finite.hpp>
+#include <shadowmath/reach.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -100,16 +102,12 @@ template <class T>
     return all_finite(&lambda, 1) ? (lambda > T(1) ? T(1) : T(0)) : T(0.5);
 }
 
-}  // namespace detail
-
-// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0
-// uniform. z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and
-// no fault). Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at
-// 2^-20 of z_far (near_clamped).
+// Any case of practical_splits.
 template <class T>
-[[nodiscard]] inline Splits<T> practical_splits(T z_near, T z_far, int count, T lambda = T(0.5)) noexcept {
-    Splits<T> splits = detail::open_splits(z_near, z_far, count);
-    T const weight = detail::clamped_lambda(lambda, splits.faults);
+[[nodiscard]] inline Splits<T> any_practical_splits(T const& z_near, T const& z_far, int count,
+                                                    T const& lambda) noexcept {
+    Splits<T> splits = open_splits(z_near, z_far, count);
+    T const weight = clamped_lambda(lambda, splits.faults);
     if (splits.count == 0) return splits;
     bool const has_ratio = z_near > z_far * T(0x1p-64);
     if (weight > T(0) && !has_ratio) splits.faults |= Fault::near_clamped;
@@ -118,17 +116,49 @@ template <class T>
     auto const blended = [&](T fraction, T power) {
         return weight * (log_near * power) + (T(1) - weight) * (z_near + (z_far - z_near) * fraction);
     };
-    if (splits.count == 4 && weight > T(0)) {
-        // What most renderers ask for, without a loop; the same bits.
-        T const half = std::sqrt(ratio), quarter = std::sqrt(half);
-        splits.plane[1] = blended(T(0.25), quarter);
-        splits.plane[2] = blended(T(0.5), half);
-        splits.plane[3] = blended(T(0.75), half * quarter);
-    } else {
-        if (weight > T(0)) detail::powers_of_ratio(ratio, splits.count, splits.plane);
-        for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
-    }
-    detail::close_splits(splits, z_near, z_far);
+    if (weight > T(0)) powers_of_ratio(ratio, splits.count, splits.plane);
+    for (int i = 1; i < splits.count; ++i) splits.plane[i] = blended(T(i) / T(splits.count), splits.plane[i]);
+    close_splits(splits, z_near, z_far);
+    return splits;
+}
+
+// What most renderers ask for: four splits between ordinary distances. False where any of that is not so, and then
+// `splits` is not to be used. The same bits as in any case.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline bool four_practical_splits(T const& z_near, T const& z_far, T const& lambda,
+                                                                    T (&plane)[max_splits + 1]) noexcept {
+    auto const n = order_of(z_near), f = order_of(z_far), weight = order_of(lambda);
+    if (!((n > 0) & (n < f) & (f < order_of(std::numeric_limits<T>::infinity())) & (weight > 0) &
+          (weight <= order_of(T(1)))) ||
+        !(z_near > z_far * T(0x1p-64)))
+        return false;
+    T const ratio = z_far / z_near, half = std::sqrt(ratio), quarter = std::sqrt(half);
+    auto const blended = [&](T fraction, T power) {
+        return lambda * (z_near * power) + (T(1) - lambda) * (z_near + (z_far - z_near) * fraction);
+    };
+    plane[0] = z_near;
+    plane[1] = blended(T(0.25), quarter);
+    plane[2] = blended(T(0.5), half);
+    plane[3] = blended(T(0.75), half * quarter);
+    plane[4] = z_far;
+    return (plane[0] < plane[1]) & (plane[1] < plane[2]) & (plane[2] < plane[3]) & (plane[3] < plane[4]);
+}
+
+}  // namespace detail
+
+// Ends exact, strictly increasing, between the uniform and the logarithmic planes; lambda = 1 is logarithmic, 0
+// uniform. z_near and z_far in metres, 0 <= z_near < z_far < infinity; count from 1 to max_splits (0 gives no split and
+// no fault). Where no ratio of distances exists (z_near = 0, or below 2^-64 of z_far) the logarithmic part starts at
+// 2^-20 of z_far (near_clamped).
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Splits<T> practical_splits(T z_near, T z_far, int count,
+                                                                    T lambda = T(0.5)) noexcept {
+    // NOTE: one object and one return, or it is copied before it has left the store buffer.
+    Splits<T> splits;
+    if (count == 4 && detail::four_practical_splits(z_near, z_far, lambda, splits.plane))
+        splits.count = 4;
+    else
+        splits = detail::any_practical_splits(z_near, z_far, count, lambda);
     return splits;
 }
 

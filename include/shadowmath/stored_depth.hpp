@@ -6,7 +6,7 @@
 //
 // What it is worth: a float buffer with reversed depth keeps eye depth to an ulp or so at any distance. With depth from
 // 0 to 1 the error grows as depth^2 / z_near: 6 mm at 100 m, 0.6 m at 1000 m for z_near = 0.1 m. The shader's twin is
-// glsl/stored_depth.glsl.
+// glsl/sample_depths.glsl.
 #pragma once
 
 #include <shadowmath/clip_space.hpp>

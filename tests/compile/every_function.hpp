@@ -102,10 +102,11 @@ int every_function() noexcept {
              &closed_form::best_centre<T>, &closed_form::split_uniform_worst<T>, &closed_form::split_warped_worst<T>,
              &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
     count += keep(&slope<T>, &lean<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
-                  &normal_offset_metres<T>, &bias_for<T>, &bias_at<T>);
+                  &normal_offset_metres<T>, &normal_offset_at<T>, &bias_for<T>, &bias_at<T>);
+    count += keep(&by_footprint<T>, &choose_planes<T>);
     count += keep(&bounds_of<T>);
-    count += keep(&least_squares_plane<T>, &median_plane<T>, &plane_distortion<T>, &choose_plane<T>, &worth_of<T>,
-                  &still_good<T>);
+    count += keep(&least_squares_plane<T>, &median_plane<T>, &weighted_median_plane<T>, &plane_distortion<T>,
+                  &choose_plane<T>, &worth_of<T>, &still_good<T>);
     count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
     count += keep(&clipmap<T>, &pixel_metres<T>, &page_at<T>, &holds<T>, &page_for<T>);
@@ -129,6 +130,7 @@ int every_function() noexcept {
                   &in_light<T>);
     count += keep(&texel_metres<T>, &rebased<T>);
     count += keep(&door<T>, &map_from_rows<T>);
+    count += keep(&map_ray<T>, &light_error_radians<T>);
     count += keep(&faults_of_margin<T>, &usable_texels<T>);
     count += keep(&less_bleeding<T>);
     count += keep(&msm_moments<T>, &msm_packed<T>, &msm_unpacked<T>, &msm_visibility<T>);
@@ -144,6 +146,7 @@ int every_function() noexcept {
     count += keep(&texture_from_world<T>);
     count += keep(&fit_slice_boxes<T>, &fit_slice_spheres<T>, &clip_points<T>, &box_at<T>, &boxes_from<T>);
     count += keep(&slice_range<T>, &slice<T>);
+    count += keep(&texel_shift<T>, &shimmer_texels<T>);
     count += keep(&practical_splits<T>, &uniform_splits<T>, &logarithmic_splits<T>, &pinned_splits<T>,
                   &explicit_splits<T>, &lambda_for_first_split<T>);
     count += keep(&transformed<T>, &projected<T>, &gain_along<T>, &tangents<T>, &bounded_quotient<T>);

@@ -8,6 +8,7 @@
 
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/clip_space.hpp>
+#include <shadowmath/finite.hpp>
 #include <shadowmath/light.hpp>
 #include <shadowmath/view_volume.hpp>
 
@@ -27,6 +28,18 @@ Vec3<T> any_vector(Case& c) {
     T const y = c.number<T>();
     T const z = c.number<T>();
     return Vec3<T>(x, y, z);
+}
+
+template <class T>
+Vec3<T> direction(Case& c) {
+    Normalized<T> const unit = safe_normalize(point_within<T>(c, T(1)));
+    return unit.ok ? unit.direction : Vec3<T>(T(0), T(1), T(0));
+}
+
+template <class T>
+Vec3<T> in_box(Case& c, Aabb<T> const& box) {
+    Vec3<T> const share = point_within<T>(c, T(0.5)) + T(0.5);
+    return box.lo * (Vec3<T>(T(1)) - share) + box.hi * share;
 }
 
 template <class T>
@@ -89,6 +102,46 @@ Aabb<T> good_box(Case& c) {
     Vec3<T> half(x, y, z);
     if (c.one_in(5)) half[c.below(3)] = T(0);
     return {centre - half, centre + half};
+}
+
+// As good_box, but near the origin and not of every size: for laws that judge by rounding.
+template <class T>
+Aabb<T> small_box(Case& c, T radius) {
+    Vec3<T> const centre = point_within<T>(c, radius);
+    Vec3<T> half = glm::abs(point_within<T>(c, radius)) + radius * T(1e-3);
+    if (c.one_in(5)) half[c.below(3)] = T(0);
+    return {centre - half, centre + half};
+}
+
+// A view, a point that it sees, receivers around the point, and what the view's rounding is worth.
+template <class T>
+struct SeenCase {
+    ViewVolume<T> view;
+    Vec3<T> point;
+    Aabb<T> receivers;
+};
+
+template <class T>
+SeenCase<T> seen_case(Case& c) {
+    SeenCase<T> seen;
+    seen.view = good_view<T>(c);
+    ViewVolume<T>& view = seen.view;
+    // What a float sees must not drown in the rounding of where it is.
+    view.pose.position *= T(0.1) * view.z_near;
+    if (view.kind == ViewKind::orthographic) {
+        T const shrink = view.z_near / (view.top - view.bottom);
+        for (T* const side : {&view.left, &view.right, &view.bottom, &view.top}) *side *= shrink;
+    }
+    T const across = c.uniform<T>(T(0.05), T(0.95)), up = c.uniform<T>(T(0.05), T(0.95));
+    // Off the ends by more than the rounding of a point there, and more often near than far.
+    T const share = c.uniform<T>(T(0.1), T(0.999));
+    T const depth = view.z_near + (view.z_far - view.z_near) * share * share * share;
+    seen.point = point_at(view, view.left + (view.right - view.left) * across,
+                          view.bottom + (view.top - view.bottom) * up, depth);
+    Vec3<T> half(T(0));
+    for (int axis = 0; axis < 3; ++axis) half[axis] = c.one_in(5) ? T(0) : c.magnitude<T>(-10, 2) * depth;
+    seen.receivers = {seen.point - half, seen.point + half};
+    return seen;
 }
 
 template <class T>

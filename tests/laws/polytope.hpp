@@ -36,7 +36,8 @@ template <class T>
 }
 
 // V - E + F = 2, with faces counted as those that still have edges, three at least, and every edge end met by three
-// edges: the combinatorics hold whatever rounding does to the places.
+// edges: the combinatorics hold whatever rounding does to the places, but for two cuts along what is one plane to
+// rounding. Those may link the points of a face in another order; what the body holds is the same.
 template <class T>
 [[nodiscard]] bool is_a_polyhedron(ConvexBody<T> const& body) {
     int edges_of[max_body_faces] = {};

@@ -80,8 +80,11 @@ template <class T>
         MicroQuad<Real> const quad = micro_quad(frame, column, row, Real(picture.depth[pixel]), normal);
         // In the middle of the pixel the quad is on the plane even where it had to be turned.
         Vec3<Real> const middle = point_on(frame, quad, column, row, Real(0.5), Real(0.5));
-        Real const lit_side = glm::dot(normal, toward(exact, middle)) * glm::dot(normal, frame.eye - middle);
-        if (std::abs(lit_side) < 1e-4L * glm::length(frame.eye - middle)) continue;
+        // An orthographic eye sees along its axis, wherever it stands.
+        bool const flat = frame.kind == ViewKind::orthographic;
+        Vec3<Real> const to_eye = flat ? -frame.inward : frame.eye - middle;
+        Real const lit_side = glm::dot(normal, toward(exact, middle)) * glm::dot(normal, to_eye);
+        if (std::abs(lit_side) < 1e-4L * glm::length(to_eye)) continue;
         // A pixel that reaches behind the map's light is not the map's.
         bool held = true;
         for (int corner = 0; corner < 4; ++corner) {

@@ -231,6 +231,61 @@ TEST(BiasProperty, ANormalOffsetAloneKeepsAPlaneFromShadowingItself) {
     }));
 }
 
+// In warped maps too, whose texels differ from place to place and whose depth leans. A spot's amount is of first order,
+// so it gets a hundredth on top.
+TEST(BiasProperty, ANormalOffsetOfTheMapItselfIsEnoughInAnyMap) {
+    EXPECT_TRUE(rc::check([] {
+        LitPlane const p = *lit_plane();
+        auto const radius = static_cast<int>(*below(4));
+        double const offset = normal_offset_at(p.any.map, p.any.light, p.map_size, radius, p.point, p.normal, 1e3);
+        RC_PRE(offset < 1e3);
+        bool const is_sun = p.any.light.kind == LightKind::directional;
+        RC_PRE(is_sun || offset < 1e-3 * glm::length(p.point - p.any.light.position));
+        laws::RasterisedPlane<double> const raster(p.any.map, p.map_size, p.point, p.normal);
+        auto const stored = [&raster](int x, int y) { return static_cast<double>(raster(x, y)); };
+        double const moved = offset * (is_sun ? 1.0 + 1e-9 : 1.01) + 1e-9;
+        RC_ASSERT(visibility(p.any.map, p.map_size, p.point + p.normal * moved, p.normal, {}, {radius, false},
+                             stored) >= 1 - 1e-12);
+    }));
+}
+
+// And no more than enough: over the plane, the moved point is lifted by the kernel's reach of slopes and nothing else.
+TEST(BiasProperty, ANormalOffsetOfTheMapItselfLiftsByWhatTheKernelNeeds) {
+    EXPECT_TRUE(rc::check([] {
+        LitPlane const p = *lit_plane();
+        auto const radius = static_cast<int>(*below(4));
+        double const offset = normal_offset_at(p.any.map, p.any.light, p.map_size, radius, p.point, p.normal, 1e3);
+        DepthSlope<double> const s = slope(p.any.map, p.map_size, p.point, p.normal, 1e6);
+        double const needed = kernel_reach_texels<double>(radius) * (std::abs(s.x) + std::abs(s.y));
+        bool const is_sun = p.any.light.kind == LightKind::directional;
+        RC_PRE(offset < 1e3 && needed > 1e-6);
+        RC_PRE(is_sun || offset < 1e-3 * glm::length(p.point - p.any.light.position));
+        laws::RasterisedPlane<double> const raster(p.any.map, p.map_size, p.point, p.normal);
+        auto const at = laws::texture_place(p.any.map, Vec3<long double>(p.point + p.normal * offset));
+        long double const lifted = std::abs(raster.depth_at(at.x * p.map_size, at.y * p.map_size) - at.z);
+        RC_ASSERT(std::abs(lifted - needed) <= (is_sun ? 1e-6L : 0.01L) * needed);
+    }));
+}
+
+TEST(BiasProperty, ANormalOffsetOfAnythingIsBetweenZeroAndTheMost) {
+    EXPECT_TRUE(rc::check([] {
+        auto const map = *nasty_map<double>();
+        auto const good = *any_map<double>();
+        auto const light = *one_in(2) ? *spot_light<double>() : good.light;
+        auto const point = *nasty_vec3<double>();
+        auto const inside = *point_in(good.map);
+        auto const normal = *one_in(3) ? *nasty_vec3<double>() : *direction<double>();
+        auto const most = *nasty<double>();
+        auto const size = static_cast<int>(*below(3000)) - 2;
+        for (auto const& [m, p] : {std::pair{map, point}, std::pair{good.map, inside}}) {
+            auto const run =
+                watched([&, m = m, p = p] { return normal_offset_at(m, light, size, 2, p, normal, most); });
+            RC_ASSERT(run.allocations == 0u && all_finite(&run.result, 1));
+            RC_ASSERT(run.result >= 0.0 && (run.result == 0.0 || run.result <= most));
+        }
+    }));
+}
+
 TEST(BiasProperty, SlopesAreCutAtTheSteepestAngleAndNotBefore) {
     EXPECT_TRUE(rc::check([] {
         auto const any = *any_map<double>();

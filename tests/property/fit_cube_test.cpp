@@ -58,4 +58,32 @@ TYPED_TEST(FitCubeProperty, ServesWhatIsSeenAroundTheLampInTheMapOfItsFace) {
     }));
 }
 
+TYPED_TEST(FitCubeProperty, IsHarmlessAndCalmForAnyNumbersAtAll) {
+    using T = TypeParam;
+    EXPECT_TRUE(rc::check([] {
+        ViewVolume<T> const nasty_view = *nasty_view_volume<T>();
+        ViewVolume<T> const good_view = *view_volume<T>();
+        ViewVolume<T> const view = *one_in(2) ? nasty_view : good_view;
+        Vec3<T> const position = *nasty_vec3<T>();
+        T const range = *nasty<T>();
+        Aabb<T> const casters = *nasty_box<T>();
+        Aabb<T> const receivers = *nasty_box<T>();
+        T const odd_margin = *nasty<T>();
+        T const margin = *one_in(2) ? odd_margin : T(2);
+        int const size = static_cast<int>(*below(5000)) - 3;
+        ClipSpace const clip = *clip_space();
+        auto const maps =
+            watched([&] { return fit_cube(view, position, range, casters, receivers, size, margin, clip); });
+        RC_ASSERT(maps.allocations == 0u);
+        int visible = 0;
+        for (ShadowMap<T> const& map : maps.result.face) {
+            RC_ASSERT(laws::harmless(map));
+            visible += map.visible ? 1 : 0;
+        }
+        RC_ASSERT(visible == maps.result.visible_count);
+        int const face = face_toward(position, view.pose.position);
+        RC_ASSERT(face >= 0 && face < cube_faces);
+    }));
+}
+
 }  // namespace

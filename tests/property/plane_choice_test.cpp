@@ -43,6 +43,28 @@ TYPED_TEST(PlaneChoiceProperty, LeastSquaresBeatAnyPlaneDrawn) {
     }));
 }
 
+TYPED_TEST(PlaneChoiceProperty, TheWeightedMedianHasNoMoreThanHalfOfTheWeightOnEitherSide) {
+    using T = TypeParam;
+    EXPECT_TRUE(rc::check([] {
+        ViewVolume<T> const view = perspective_view(*pose<T>(T(3)), T(1), T(1.5), T(0.1), T(100));
+        Vec3<T> const normal = *direction<T>();
+        std::array<SurfacePoint<T>, 20> points;
+        for (SurfacePoint<T>& p : points)
+            p.point = point_at(view, *centred<T>(T(0.5)), *centred<T>(T(0.5)), *uniform<T>(T(1), T(30)));
+        auto const plane = weighted_median_plane(view, normal, points.data(), 20);
+        T above = T(0), below = T(0), total = T(0);
+        for (SurfacePoint<T> const& p : points) {
+            T const depth = eye_depth(view, p.point), weight = T(1) / (depth * depth);
+            T const height = glm::dot(plane.normal, p.point) + plane.offset;
+            total += weight;
+            if (height > T(1e-4)) above += weight;
+            if (height < T(-1e-4)) below += weight;
+        }
+        RC_ASSERT(above <= total * T(0.50001));
+        RC_ASSERT(below <= total * T(0.50001));
+    }));
+}
+
 TYPED_TEST(PlaneChoiceProperty, IsFiniteAndCalmForAnyInput) {
     using T = TypeParam;
     EXPECT_TRUE(rc::check([] {

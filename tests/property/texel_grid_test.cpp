@@ -66,3 +66,19 @@ TYPED_TEST(TexelGridProperty, IsHarmlessForAnyNumbersAtAll) {
         RC_ASSERT(laws::is_harmless(texel_grid(basis, sphere, size, margin), lo, hi, clip));
     }));
 }
+
+TYPED_TEST(TexelGridProperty, AHeldSizeIsEnoughAndNoMoreThanAQuarterTooMuchForAnyNumbers) {
+    EXPECT_TRUE(rc::check([] {
+        using T = TypeParam;
+        auto const odd = *nasty<T>();
+        auto const good = *log_uniform<T>(T(1e-3), T(1e3));
+        auto const needed = *one_in(3) ? odd : good;
+        auto const last = *one_in(3) ? *nasty<T>() : good * *uniform<T>(T(0.5), T(2));
+        auto const held = held_size(needed, last);
+        if (!all_finite(&needed, 1)) return;
+        RC_ASSERT(all_finite(&held, 1) && held >= needed);
+        RC_ASSERT(!(needed > T(0)) || held <= needed * T(1.2500001));
+        // Once held, it stays.
+        RC_ASSERT(held_size(needed, held) == held);
+    }));
+}

@@ -77,3 +77,31 @@ TYPED_TEST(WarpProperty, IsFiniteAndCalmForAnyInput) {
         RC_ASSERT(map.calm());
     }));
 }
+
+// The conversions: of any distance of the centre behind the near end, by strength, by eta, by the focus of the
+// trapezoid and by the growth of w. Each gives back the distance that it was made from.
+TEST(WarpConversions, AgreeOnOneCentre) {
+    EXPECT_TRUE(rc::check([] {
+        auto const z_near = *log_uniform<double>(0.01, 100.0);
+        auto const length = z_near * *log_uniform<double>(0.1, 1e4);
+        auto const sine = *uniform<double>(0.15, 1.0);
+        auto const share = *uniform<double>(0.01, 0.99);
+        double const most = sine / z_near, best = optimal_inverse_centre(z_near, length, sine);
+        auto const is = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
+        // Wimmer's a is (n + sqrt(n f)) / sine, with f the depth that the tilted body reaches.
+        double const f = z_near + length * sine;
+        RC_ASSERT(is(1 / best, (z_near + std::sqrt(z_near * f)) / sine));
+        RC_ASSERT(is(lloyd_inverse_centre(0.0, z_near, length, sine), best));
+        RC_ASSERT(is(lloyd_inverse_centre(1.0, z_near, length, sine), most));
+        RC_ASSERT(lloyd_inverse_centre(-1.0, z_near, length, sine) <= 1e-12 * most);
+        double const a = 1 / (most * share);
+        // 80 % of the map up to a focus: y / (y + a) of its whole at `length`, so 0.8 = y (length + a) / (length (y +
+        // a)).
+        double const focus = 0.8 * length * a / (length + a - 0.8 * length);
+        RC_ASSERT(is(trapezoid_inverse_centre(length, focus), 1 / a));
+        // w = 1 + g y from the eye is 1 + (y - y_near) / a from the near end, over its value there.
+        double const y_near = a * *uniform<double>(-0.1, 0.9), growth = 1 / (a - y_near);
+        RC_PRE(1 + growth * y_near > 0.16);
+        RC_ASSERT(is(extended_inverse_centre(growth * sine, sine, y_near), 1 / a));
+    }));
+}

@@ -53,7 +53,8 @@ std::vector<Made<T>> every_map(Input<T> const& in) {
     };
     for (auto const& [fit, name] :
          {Named{CascadeFit::stable, "stable cascade"}, Named{CascadeFit::tight, "tight cascade"},
-          Named{CascadeFit::rectangle, "rectangle cascade"}, Named{CascadeFit::focus, "focus cascade"}}) {
+          Named{CascadeFit::rectangle, "rectangle cascade"}, Named{CascadeFit::focus, "focus cascade"},
+          Named{CascadeFit::warped, "warped cascade"}}) {
         CascadeOptions<T> options = in.cascades;
         options.fit = fit;
         options.clip = in.clip;
@@ -73,13 +74,20 @@ std::vector<Made<T>> every_map(Input<T> const& in) {
     VdsmOptions<T> vdsm;
     vdsm.map_size = in.map_size;
     vdsm.margin_texels = in.margin_texels;
-    made.push_back({"simple perspective map", in.sun,
-                    simple_perspective_map(in.view, in.sun, in.casters, in.receivers, warp, in.clip)});
+    for (WarpRule const rule : {WarpRule::by_strength, WarpRule::trapezoid, WarpRule::extended}) {
+        warp.rule = rule;
+        made.push_back({"simple perspective map", in.sun,
+                        simple_perspective_map(in.view, in.sun, in.casters, in.receivers, warp, in.clip)});
+    }
     for (Light<T> const& light : {in.sun, in.lamp})
         made.push_back({"view-dependent map", light,
                         view_dependent_map(in.view, light, in.plane, in.casters, in.receivers, vdsm, in.clip)});
     made.push_back({"spot", in.lamp,
                     fit_spot(in.view, in.lamp, in.casters, in.receivers, in.map_size, in.margin_texels, in.clip)});
+    // A lamp without an axis: of its six faces most serve nothing, and a bad axis is no fault.
+    CubeMaps<T> const cube = fit_cube(in.view, in.lamp.position, in.lamp.range, in.casters, in.receivers, in.map_size,
+                                      in.margin_texels, in.clip);
+    for (ShadowMap<T> const& face : cube.face) EXPECT_TRUE(laws::harmless(face)) << "face of a cube";
     for (Made<T> const& one : made) EXPECT_TRUE(laws::harmless(one.map)) << one.technique;
     return made;
 }

@@ -12,11 +12,13 @@ namespace shadowmath::test {
 // Calls of any operator new since the program began (main.cpp replaces them to count).
 [[nodiscard]] std::uint64_t allocation_count();
 
+inline constexpr int watched_flags = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+
 template <class Result>
 struct Watched {
     Result result;
     std::uint64_t allocations;
-    int raised;  // of FE_INVALID and FE_DIVBYZERO
+    int raised;  // of the flags below
 
     [[nodiscard]] bool calm() const { return allocations == 0 && raised == 0; }
 };
@@ -28,7 +30,7 @@ template <class Call>
     auto result = call();
     // NOTE: without it the compiler may move the arithmetic past the reading of the flags.
     asm volatile("" : : "g"(&result) : "memory");
-    int const raised = std::fetestexcept(FE_INVALID | FE_DIVBYZERO);
+    int const raised = std::fetestexcept(watched_flags);
     return {result, allocation_count() - before, raised};
 }
 

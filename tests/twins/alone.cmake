@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
 # cmake -DGLSLANG=glslangValidator -DOUT=<folder> -P alone.cmake
-# Every file of the GLSL library compiles alone: pasted into OpenGL 4.3 text, and included by a compiler for Vulkan.
+# Every file of the GLSL library compiles alone, and all of them together: pasted into OpenGL 4.3 text, and included by
+# a compiler for Vulkan.
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH tests)
 cmake_path(GET tests PARENT_PATH root)
 file(GLOB library "${root}/include/shadowmath/glsl/*.glsl")
@@ -17,9 +18,13 @@ function(run)
     endif()
 endfunction()
 
-foreach(path IN LISTS library)
-    cmake_path(GET path STEM name)
-    set(shader "layout(local_size_x = 1) in;\n#include \"shadowmath/glsl/${name}.glsl\"\nvoid main() {}\n")
+function(compile name)
+    set(shader "layout(local_size_x = 1) in;\n")
+    foreach(path IN LISTS ARGN)
+        cmake_path(GET path FILENAME file)
+        string(APPEND shader "#include \"shadowmath/glsl/${file}\"\n")
+    endforeach()
+    string(APPEND shader "void main() {}\n")
     file(WRITE "${OUT}/pasted_${name}.comp" "#version 430 core\n${shader}")
     run(${CMAKE_COMMAND} -DOUT=${OUT}/text -DSHADERS=${OUT}/pasted_${name}.comp
         -P "${root}/backends/shaders/embed.cmake")
@@ -27,4 +32,10 @@ foreach(path IN LISTS library)
     file(WRITE "${OUT}/${name}.comp"
          "#version 450\n#extension GL_GOOGLE_include_directive : require\n${shader}")
     run("${GLSLANG}" -V "-I${root}/include" -o "${OUT}/${name}.spv" "${OUT}/${name}.comp")
+endfunction()
+
+foreach(path IN LISTS library)
+    cmake_path(GET path STEM name)
+    compile(${name} "${path}")
 endforeach()
+compile(all_together ${library})

@@ -18,6 +18,7 @@ void answer(uint function) {
     sm_LookUp look_up;
     int tap, layer, size, order, radius;
     vec3 point, normal;
+    sm_Seen seen;
     switch (function) {
         case 0u:
             tap = take_int();
@@ -59,5 +60,25 @@ void answer(uint function) {
             normal = take3();
             radius = take_int();
             give(sm_cascaded_visibility(depths, look_up, cascade, second, size, point, normal, radius, take_bool()));
+            break;
+        case 5u:
+            cascade = take_cascade();
+            size = take_int();
+            point = take3();
+            normal = take3();
+            seen = sm_seen_by(cascade.map, size, point, normal, cascade.bias, take_bool());
+            give(seen.receiver.texel);
+            give(seen.receiver.depth);
+            give(seen.receiver.slope);
+            give(seen.w);
+            give(seen.in_map);
+            break;
+        case 6u:
+            layer = take_int();
+            size = take_int();
+            order = take_int();
+            tap = take_int();
+            radius = take_int();
+            give(sm_is_tap_lit(depths, layer, size, order, ivec2(tap, radius), take()));
     }
 }

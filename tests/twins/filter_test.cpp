@@ -97,6 +97,39 @@ TEST_P(FilterTwins, Visibility) {
     });
 }
 
+TEST_P(FilterTwins, SeenBy) {
+    prove({"seen_by", shader, 5, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        int const side = map_size(draw, size);
+        auto const [map, light, point] = draw.seen();
+        MapBias<float> const of_map = bias(draw);
+        Vec3<float> const normal = draw.direction();
+        bool const tap_plane = draw.one_in(2);
+        given(map);
+        give(given, of_map);
+        given(side)(point)(normal)(tap_plane);
+        auto const seen = detail::seen_by(map, side, point, normal, of_map, tap_plane);
+        expected(seen.receiver.texel)(seen.receiver.depth)(seen.receiver.slope.x)(seen.receiver.slope.y)(seen.w)(
+            seen.in_map);
+    });
+}
+
+// One tap of a kernel is the share of a kernel of one.
+TEST_P(FilterTwins, IsTapLit) {
+    prove({"is_tap_lit", shader, 6, 2, textures}, [this](Draw& draw, Words& given, Words& expected) {
+        int const layer = draw.whole(0, layers - 1), side = map_size(draw, size);
+        int const x = draw.whole(-2, size + 1), y = draw.whole(-2, size + 1);
+        float depth = draw.spoilt(draw.uniform(-0.1f, 1.1f));
+        // One in four is exactly what is stored there.
+        if (draw.one_in(4) && x >= 0 && y >= 0 && x < size && y < size) depth = layer_of(layer)(x, y);
+        if (!all_finite(&depth, 1)) depth = 0.5f;
+        ClipSpace const clip = draw.clip_space();
+        given(layer)(side)(static_cast<int>(clip.depth))(x)(y)(depth);
+        Receiver<float> const there{{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, depth, {}};
+        bool const inside = x >= 0 && y >= 0 && x < side && y < side;
+        expected(!inside || filtered(there, side, clip, FilterOptions{0, false}, layer_of(layer)) == 1.0f);
+    });
+}
+
 TEST_P(FilterTwins, CascadedVisibility) {
     prove({"cascaded_visibility", shader, 4, 2500, textures}, [this](Draw& draw, Words& given, Words& expected) {
         int const side = map_size(draw, size);

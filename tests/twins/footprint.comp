@@ -33,5 +33,14 @@ void answer(uint function) {
             texels = take();
             point = take3();
             give_footprint(sm_footprint(eye, pair, map, texels, point, take3()));
+            break;
+        case 4u:
+            map = take_mat4();
+            point = take3();
+            pair = take2();
+            sm_ScaledColumns gains = sm_gains_on_plane(map, sm_projected(map, point, 0.0), sm_tangents(take3()), pair);
+            give(gains.s);
+            give(gains.t);
+            give(gains.scale);
     }
 }

@@ -42,6 +42,18 @@ TEST_P(FootprintTwins, TexelsPerPixel) {
     });
 }
 
+TEST_P(FootprintTwins, GainsOnPlane) {
+    prove({"gains_on_plane", shader, 4}, [](Draw& draw, Words& given, Words& expected) {
+        auto const [map, light, point] = draw.seen();
+        Vec2<float> const half(draw.spoilt(draw.uniform(1.0f, 4000.0f)), draw.spoilt(draw.uniform(1.0f, 4000.0f)));
+        Vec3<float> const normal = draw.vector();
+        given(map.clip_from_world)(point)(half)(normal);
+        auto const gains =
+            detail::gains_on_plane(map.clip_from_world, projected(map.clip_from_world, point), tangents(normal), half);
+        expected(gains.s)(gains.t)(gains.scale);
+    });
+}
+
 // Up to the lengths both sides are equal; these differ by 4 u, their sum, two products and the quotient add 2 u each.
 TEST_P(FootprintTwins, Footprint) {
     prove({"footprint", shader, 3}, [](Draw& draw, Words& given, Words& expected) {

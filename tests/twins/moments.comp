@@ -56,5 +56,26 @@ void answer(uint function) {
             depth = take();
             exponents = take2();
             give(sm_evsm_visibility(moments, depth, exponents, take()) < 0.5);
+            break;
+        case 12u:
+            depth = take();
+            give(sm_unit_depth(depth));
+            give(sm_share_or_light(depth));
+            give(sm_kept_deviation(depth));
+            give(sm_kept_exponent(depth));
+            break;
+        case 13u:
+            moments = take4();
+            give(sm_most_light(moments.x, moments.y, moments.z, moments.w));
+            break;
+        case 14u:
+            moments = take4();
+            give(sm_solve_hankel(moments, take()));
+            break;
+        case 15u:
+            moments = take4();
+            depth = take();
+            two = take2();
+            give(sm_mass_before(moments, depth, two.x, two.y));
     }
 }

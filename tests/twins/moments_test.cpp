@@ -167,6 +167,42 @@ TEST_P(MomentsTwins, MsmPackedAndUnpacked) {
     });
 }
 
+TEST_P(MomentsTwins, WhatIsKeptOfANumber) {
+    prove({"unit_depth, kept_...", shader, 12, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        float const number = draw.one_in(2) ? draw.number(2.0f) : draw.number(50.0f);
+        given(number);
+        expected(detail::unit_depth(number))(detail::share_or_light(number))(detail::kept_deviation(number))(
+            detail::kept_exponent(number));
+    });
+}
+
+TEST_P(MomentsTwins, MostLight) {
+    prove({"most_light", shader, 13, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        float const mean = draw.number(1.0f), square = draw.number(1.0f), value = draw.number(1.0f);
+        float const deviation = draw.spoilt(draw.log_uniform(1e-6f, 1.0f));
+        given(mean)(square)(value)(deviation);
+        expected(detail::most_light(mean, square, value, deviation));
+    });
+}
+
+TEST_P(MomentsTwins, SolveHankel) {
+    prove({"solve_hankel", shader, 14, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        Vec4<float> const moments = mean(draw, msm_moments<float>);
+        float const x = draw.number(1.0f);
+        given(moments)(x);
+        expected(detail::solve_hankel(moments, x));
+    });
+}
+
+TEST_P(MomentsTwins, MassBefore) {
+    prove({"mass_before", shader, 15, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        Vec4<float> const moments = mean(draw, msm_moments<float>);
+        float const x = draw.number(1.0f), low = draw.number(1.0f), high = draw.number(1.0f);
+        given(moments)(x)(low)(high);
+        expected(detail::mass_before(moments, x, low, high));
+    });
+}
+
 TEST_P(MomentsTwins, MsmVisibility) {
     prove({"msm_visibility", shader, 10, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
         Vec4<float> const moments = mean(draw, msm_moments<float>);

@@ -104,4 +104,130 @@ TEST_P(PcssTwins, SoftVisibility) {
     });
 }
 
+// The steps. A plane before or behind the depths of the map.
+detail::TapPlane<float> plane(Draw& draw) {
+    float const x = draw.spoilt(draw.uniform(-1.0f, 33.0f)), y = draw.spoilt(draw.uniform(-1.0f, 33.0f));
+    float const depth = draw.spoilt(draw.uniform(0.0f, 1.0f)), along_x = draw.number(0.01f),
+                along_y = draw.number(0.01f);
+    return {Vec2<float>(x, y), depth, {along_x, along_y}};
+}
+void give(Words& given, detail::TapPlane<float> const& plane) {
+    given(plane.texel)(plane.depth)(plane.slope.x)(plane.slope.y);
+}
+
+MapPenumbra<float> penumbra(Draw& draw) {
+    MapPenumbra<float> drawn;
+    for (int i = 0; i < 4; ++i) {
+        drawn.rim_x[i] = draw.number(i == 3 ? 0.02f : 0.1f);
+        drawn.rim_y[i] = draw.number(i == 3 ? 0.02f : 0.1f);
+    }
+    drawn.depth_of_gap = draw.log_uniform(0.1f, 1.0f);
+    drawn.largest_gap = draw.spoilt(draw.log_uniform(0.1f, 1e3f));
+    return drawn;
+}
+
+Vec4<float> place(Draw& draw) {
+    float const w = draw.spoilt(draw.log_uniform(0.1f, 10.0f)), x = draw.spoilt(draw.uniform(-0.1f, 1.1f) * w);
+    float const y = draw.spoilt(draw.uniform(-0.1f, 1.1f) * w);
+    return Vec4<float>(x, y, draw.spoilt(draw.uniform(0.0f, 1.0f) * w), w);
+}
+
+TEST_P(PcssTwins, TapsAndTheirPlane) {
+    prove({"tap_depth, plane_depth", shader, 3, 2500, textures}, [this](Draw& draw, Words& given, Words& expected) {
+        int const layer = draw.whole(0, layers - 1), x = draw.whole(-2, size + 1), y = draw.whole(-2, size + 1);
+        bool const reversed_depth = draw.one_in(2);
+        auto const stored = layer_of(layer);
+        detail::TapMap<float, decltype(stored)> const map{stored, size, reversed_depth};
+        auto const drawn = plane(draw);
+        given(layer)(size)(static_cast<int>(reversed_depth ? DepthOrder::one_to_zero : DepthOrder::zero_to_one))(x)(y);
+        give(given, drawn);
+        expected(map.holds(x, y))(map.holds(x, y) ? map.depth(x, y) : 0.0f)(drawn.at(x, y));
+    });
+}
+
+TEST_P(PcssTwins, TexelOf) {
+    prove({"texel_of", shader, 4, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        int const side = 1 << draw.whole(0, 13);
+        Vec4<float> const at = place(draw);
+        Vec2<float> texel(0.0f);
+        bool const is_near = detail::texel_of(at, side, texel);
+        given(side)(at);
+        expected(is_near)(is_near ? texel : Vec2<float>(0.0f));
+    });
+}
+
+TEST_P(PcssTwins, MeanOfFour) {
+    prove({"mean_of_four", shader, 5, 2500, textures}, [](Draw& draw, Words& given, Words& expected) {
+        Vec4<float> values(1.0f);
+        for (int i = 0; i < 4; ++i) values[i] = draw.spoilt(draw.uniform(0.0f, 1.0f));
+        detail::Around<float> four(Vec2<float>(draw.uniform(0.0f, 32.0f), draw.uniform(0.0f, 32.0f)));
+        given(values)(four.share);
+        expected(four.mean([&](int x, int y) { return values[(x - four.x) + 2 * (y - four.y)]; }));
+    });
+}
+
+TEST_P(PcssTwins, Search) {
+    prove({"search", shader, 6, 2500, textures}, [this](Draw& draw, Words& given, Words& expected) {
+        int const layer = draw.whole(0, 1), taps = draw.whole(1, 40);
+        bool const reversed_depth = draw.one_in(2);
+        auto const stored = layer_of(layer);
+        detail::TapMap<float, decltype(stored)> const map{stored, size, reversed_depth};
+        auto const drawn = plane(draw);
+        Vec4<float> const receiver = place(draw);
+        MapPenumbra<float> const of_map = penumbra(draw);
+        float const angle = draw.uniform(0.0f, 6.28f);
+        Vec2<float> const direction(std::cos(angle), std::sin(angle));
+        given(layer);
+        give(given, drawn);
+        given(receiver);
+        twins::give(given, of_map);
+        given(static_cast<int>(reversed_depth ? DepthOrder::one_to_zero : DepthOrder::zero_to_one))(taps)(direction);
+        auto const found = detail::search(map, drawn, receiver, of_map, taps, direction);
+        expected(found.blocked ? 0.0f : 1.0f)(found.gap)(found.blocked);
+    });
+}
+
+// Texels that casts can reach: of a place that texel_of takes.
+TEST_P(PcssTwins, LitAround) {
+    prove({"lit_around", shader, 7, 1000, textures}, [this](Draw& draw, Words& given, Words& expected) {
+        int const layer = draw.whole(0, 1);
+        bool const reversed_depth = draw.one_in(2);
+        auto const stored = layer_of(layer);
+        detail::TapMap<float, decltype(stored)> const map{stored, size, reversed_depth};
+        auto const drawn = plane(draw);
+        Vec2<float> const texel(draw.uniform(-1.0f, 33.0f), draw.uniform(-1.0f, 33.0f));
+        given(layer);
+        give(given, drawn);
+        given(static_cast<int>(reversed_depth ? DepthOrder::one_to_zero : DepthOrder::zero_to_one))(texel);
+        expected(detail::lit_around(map, drawn, texel));
+    });
+}
+
+// What search asks of one tap, written out.
+TEST_P(PcssTwins, GapInCone) {
+    prove({"gap_in_cone", shader, 8, 2000, textures}, [this](Draw& draw, Words& given, Words& expected) {
+        int const layer = draw.whole(0, 1), x = draw.whole(-2, size + 1), y = draw.whole(-2, size + 1);
+        bool const reversed_depth = draw.one_in(2);
+        auto const stored = layer_of(layer);
+        detail::TapMap<float, decltype(stored)> const map{stored, size, reversed_depth};
+        auto const drawn = plane(draw);
+        Vec4<float> const at = place(draw);
+        MapPenumbra<float> const of_map = penumbra(draw);
+        float const least = draw.spoilt(draw.uniform(0.0f, 0.1f)), widest = draw.log_uniform(0.1f, 10.0f);
+        given(layer);
+        give(given, drawn);
+        given(at);
+        twins::give(given, of_map);
+        given(static_cast<int>(reversed_depth ? DepthOrder::one_to_zero : DepthOrder::zero_to_one))(x)(
+            y)(least)(widest);
+        float gap = 0.0f;
+        if (map.holds(x, y)) {
+            gap = gap_at(of_map, at, map.depth(x, y));
+            bool const blocks = map.depth(x, y) < drawn.at(x, y) && gap >= least;
+            gap = blocks ? (gap < widest ? gap : widest) : 0.0f;
+        }
+        expected(gap);
+    });
+}
+
 }  // namespace

@@ -40,5 +40,7 @@ void answer(uint function) {
             place = take4();
             size = take_int();
             give(sm_kernel_texels(penumbra, place, size, take()));
+            break;
+        case 6u: give(sm_is_finite(take_penumbra()));
     }
 }

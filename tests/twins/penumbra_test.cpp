@@ -94,4 +94,13 @@ TEST_P(PenumbraTwins, KernelTexels) {
     });
 }
 
+TEST_P(PenumbraTwins, IsFinite) {
+    prove({"is_finite", shader, 6, 2}, [](Draw& draw, Words& given, Words& expected) {
+        auto const seen = draw.seen();
+        MapPenumbra<float> const penumbra = penumbra_of(draw, seen.map, seen.light);
+        give(given, penumbra);
+        expected(detail::is_finite(penumbra));
+    });
+}
+
 }  // namespace

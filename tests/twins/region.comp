@@ -41,5 +41,9 @@ void answer(uint function) {
             tile.atlas.y = take_int();
             give(sm_is_valid(tile));
             give(sm_tile_matrix(tile, take_bool()));
+            break;
+        case 6u:
+            vec2 scale = take2();
+            give(sm_scale_and_move(scale, take2()));
     }
 }

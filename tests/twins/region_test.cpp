@@ -90,4 +90,13 @@ TEST_P(RegionTwins, TileMatrix) {
     });
 }
 
+TEST_P(RegionTwins, ScaleAndMove) {
+    prove({"scale_and_move", shader, 6}, [](Draw& draw, Words& given, Words& expected) {
+        Vec2<float> const scale(draw.number(10.0f), draw.number(10.0f)), offset(draw.number(10.0f), draw.number(10.0f));
+        given(scale)(offset);
+        expected(from_rows(Vec4<float>(scale.x, 0.0f, 0.0f, offset.x), Vec4<float>(0.0f, scale.y, 0.0f, offset.y),
+                           Vec4<float>(0.0f, 0.0f, 1.0f, 0.0f), Vec4<float>(0.0f, 0.0f, 0.0f, 1.0f)));
+    });
+}
+
 }  // namespace

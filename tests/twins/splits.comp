@@ -30,5 +30,14 @@ void answer(uint function) {
             give(range.begin);
             give(range.blend_begin);
             give(range.end);
+            break;
+        case 2u:
+            range.begin = take();
+            range.end = take();
+            give(sm_fade_begin(range.begin, range.end, take()));
+            break;
+        case 3u:
+            range.begin = take();
+            give(sm_root(range.begin, take_int()));
     }
 }

@@ -52,4 +52,23 @@ TEST_P(SplitsTwins, SliceRange) {
     });
 }
 
+TEST_P(SplitsTwins, FadeBegin) {
+    prove({"fade_begin", shaders::splits_comp, 2}, [](Draw& draw, Words& given, Words& expected) {
+        float const begin = draw.number(100.0f), end = draw.number(200.0f), share = draw.number(1.0f);
+        given(begin)(end)(share);
+        expected(detail::fade_begin(begin, end, share));
+    });
+}
+
+// One step of Newton's method from a power that is off by thousands of ulp leaves their square: nothing; the step
+// itself rounds twice.
+TEST_P(SplitsTwins, Root) {
+    prove({"root", shaders::splits_comp, 3, 2000}, [](Draw& draw, Words& given, Words& expected) {
+        float const ratio = draw.log_uniform(1.0f, 18446744073709551616.0f);
+        int const count = draw.whole(1, 16);
+        given(ratio)(count);
+        expected(static_cast<float>(std::pow(static_cast<double>(ratio), 1.0 / count)), 2);
+    });
+}
+
 }  // namespace

@@ -47,5 +47,18 @@ void answer(uint function) {
         case 6u:
             vec3 quotient = take3();
             give(sm_bounded_quotient(quotient.x, quotient.y, quotient.z));
+            break;
+        case 7u:
+            matrix = take_mat4();
+            give(sm_all_finite(matrix));
+            give(sm_all_finite(matrix[0]));
+            give(sm_all_finite(matrix[1].xy));
+            give(sm_all_finite(matrix[2].x));
+            break;
+        case 8u:
+            matrix = take_mat4();
+            give(sm_dot(matrix[0].xyz, matrix[1].xyz));
+            give(sm_dot(matrix[2], matrix[3]));
+            give(sm_cross(matrix[0].xyz, matrix[1].xyz));
     }
 }

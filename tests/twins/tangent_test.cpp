@@ -73,4 +73,25 @@ TEST_P(TangentTwins, BoundedQuotient) {
     });
 }
 
+// One number in thirty is not finite.
+TEST_P(TangentTwins, AllFiniteOfEveryShape) {
+    prove({"all_finite, every shape", shader, 7, 6}, [](Draw& draw, Words& given, Words& expected) {
+        Mat4<float> matrix(1.0f);
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = draw.one_in(30) ? draw.nasty() : draw.uniform(-1.0f, 1.0f);
+        given(matrix);
+        expected(all_finite(matrix))(all_finite(matrix[0]))(all_finite(Vec2<float>(matrix[1])))(
+            all_finite(&matrix[2].x, 1));
+    });
+}
+
+TEST_P(TangentTwins, DotAndCross) {
+    prove({"dot, cross", shader, 8}, [](Draw& draw, Words& given, Words& expected) {
+        Mat4<float> matrix(1.0f);
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = draw.number(1e3f);
+        Vec3<float> const a(matrix[0]), b(matrix[1]);
+        given(matrix);
+        expected(glm::dot(a, b))(glm::dot(matrix[2], matrix[3]))(glm::cross(a, b));
+    });
+}
+
 }  // namespace

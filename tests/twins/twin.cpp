@@ -64,8 +64,8 @@ std::string shown(std::span<std::uint32_t const> words) {
 
 }  // namespace
 
-void detail::compare(ComputeRunner& runner, std::string const& driver, Twin const& twin, Words const& given,
-                     Words const& expected) {
+void hold_together(ComputeRunner& runner, std::string const& driver, Twin const& twin, Words const& given,
+                   Words const& expected) {
     std::size_t const in = given.words().size() / case_count, out = expected.words().size() / case_count;
     ASSERT_EQ(in * case_count, given.words().size());
     ASSERT_EQ(out * case_count, expected.words().size());

@@ -68,11 +68,9 @@ struct Twin {
 
 inline constexpr std::uint32_t case_count = 12000;
 
-namespace detail {
 // Runs the shader and compares; `given` and `expected` hold case_count cases each.
-void compare(ComputeRunner& runner, std::string const& driver, Twin const& twin, Words const& given,
-             Words const& expected);
-}  // namespace detail
+void hold_together(ComputeRunner& runner, std::string const& driver, Twin const& twin, Words const& given,
+                   Words const& expected);
 
 class Twins : public OnDriver {
 protected:
@@ -92,7 +90,7 @@ protected:
             draw.next_case();
             one_case(draw, given, expected);
         }
-        detail::compare(*runner, name_of(GetParam()), twin, given, expected);
+        hold_together(*runner, name_of(GetParam()), twin, given, expected);
     }
 };
 

@@ -22,5 +22,7 @@ void answer(uint function) {
         case 2u:
             map = take_map();
             give(sm_receiver_valid(map, take3()));
+            break;
+        case 3u: give(sm_over_largest(take4()));
     }
 }

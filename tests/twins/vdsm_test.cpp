@@ -43,4 +43,16 @@ TEST_P(VdsmTwins, ReceiverValid) {
     });
 }
 
+// A step of plane_projection, of finite numbers as there.
+TEST_P(VdsmTwins, OverLargest) {
+    prove({"over_largest", shader, 3}, [](Draw& draw, Words& given, Words& expected) {
+        Vec4<float> v(draw.vector(), draw.number(100.0f));
+        if (draw.one_in(64) || !all_finite(v)) v = Vec4<float>(0.0f);
+        float const largest =
+            std::fmax(std::fmax(std::abs(v.x), std::abs(v.y)), std::fmax(std::abs(v.z), std::abs(v.w)));
+        given(v);
+        expected(largest > 0.0f ? Vec4<float>(v.x / largest, v.y / largest, v.z / largest, v.w / largest) : v);
+    });
+}
+
 }  // namespace

@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
 // What can be wrong with the camera and the light, and what is promised for it: one test for each kind, over every
-// technique that it reaches.
+// technique that it reaches. The names carry the row of this table; bad_scene_test.cpp holds the others.
+//
+//    1 NaN or infinity in any input          15 boxes as large as the type allows
+//    2 light along up, or along the view     16 a world of 100 to 100 000 km
+//    3 a light direction of no length        17 denormals, flushed or not
+//    4 near = 0                              18 a projection that is singular
+//    5 near < 0, near >= far                 19 casters behind the eye, or across w = 0
+//    6 far = infinity                        20 a shadow plane through the eye or along the light
+//    7 far / near up to 10^9                 21 a light from below
+//    8 field of view or aspect impossible    22 a spot of angle 0 or a right angle, of radius 0, on a vertex
+//    9 off-centre, orthographic, reversed,   23 a map of 0, 1 or 2^17 texels
+//      infinite projections: no fault        24 a tile outside its atlas
+//   10 0, 1 or any number of splits          25 options without measure
+//   11 lambda outside [0, 1]                 26 a bent pose, a scaled view matrix
+//   12 no casters                            27 triangles that are degenerate, edge-on, huge
+//   13 no receivers                          28 aliasing, unaligned arrays, lengths off by one
+//   14 casters of one point, line, plane
 #include "tests/laws/splits.hpp"
 #include "tests/laws/view_volume.hpp"
 #include "tests/support/every_map.hpp"
@@ -17,12 +33,12 @@
 using namespace shadowmath;
 using namespace shadowmath::test;
 
-TEST(BadView, NoneOfItIsInTheGoodInputOfTheseTests) {
+TEST(BadInput, NoneOfItIsInTheGoodInputOfTheseTests) {
     expect_visible(Input<float>{});
     expect_visible(Input<double>{});
 }
 
-TEST(BadView, NaNAndInfinityAnywhereInTheViewMakeNothingVisible) {
+TEST(BadInput, Row01NaNAndInfinityAnywhereInTheViewMakeNothingVisible) {
     for (double const bad : {nan_value, infinity, -infinity})
         for (int field = 0; field < 17; ++field) {
             Input<double> in;
@@ -34,7 +50,7 @@ TEST(BadView, NaNAndInfinityAnywhereInTheViewMakeNothingVisible) {
         }
 }
 
-TEST(BadView, NaNAndInfinityInALightMakeNothingVisible) {
+TEST(BadInput, Row01NaNAndInfinityInALightMakeNothingVisible) {
     for (double const bad : {nan_value, infinity, -infinity})
         for (int axis = 0; axis < 3; ++axis) {
             Input<double> in;
@@ -50,7 +66,7 @@ TEST(BadView, NaNAndInfinityInALightMakeNothingVisible) {
         }
 }
 
-TEST(BadView, ALightAlongTheUpAxisOrTheViewIsNoFault) {
+TEST(BadInput, Row02ALightAlongTheUpAxisOrTheViewIsNoFault) {
     Input<double> in;
     for (glm::dvec3 const& travel : {glm::dvec3(0, -1, 0), glm::dvec3(1e-9, -1, 0), in.view.pose.forward}) {
         in.sun = directional(travel);
@@ -63,7 +79,48 @@ TEST(BadView, ALightAlongTheUpAxisOrTheViewIsNoFault) {
     }
 }
 
-TEST(BadView, ATinyLightDirectionIsNormalizedAndAZeroOneIsAFault) {
+// The one direction is straight up, where no sun shines. A turn by 1e-3 turns the axes by as much, or by what its angle
+// to that direction multiplies it with: at 1e-2 from it a hundredfold.
+TEST(BadInput, Row02TheAxesOfALightAreOrthonormalAndTurnWithItButAtOneDirection) {
+    std::vector<glm::dvec3> directions;
+    for (int axis = 0; axis < 3; ++axis)
+        for (double const sign : {-1.0, 1.0})
+            for (double const off : {0.0, 1e-8, 1e-6, 1e-3, 0.3}) {
+                glm::dvec3 direction(off, off * 0.5, -off);
+                direction[axis] = sign;
+                directions.push_back(glm::normalize(direction));
+            }
+    for (glm::dvec3 const& direction : directions) {
+        LightBasis<float> const rough = light_basis(directional(glm::vec3(direction)).direction);
+        glm::mat3 const axes(rough.x, rough.y, rough.depth);
+        glm::mat3 const square = glm::transpose(axes) * axes;
+        for (int i = 0; i < 9; ++i) EXPECT_NEAR(square[i / 3][i % 3], i % 4 == 0 ? 1.0f : 0.0f, 1e-6f);
+        if (direction.y > 1 - 1e-4) continue;
+        for (glm::dvec3 const& turn : {glm::dvec3(1e-3, 0, 0), glm::dvec3(0, 1e-3, 0), glm::dvec3(0, 0, 1e-3)}) {
+            LightBasis<double> const here = light_basis(direction);
+            LightBasis<double> const there = light_basis(glm::normalize(direction + turn));
+            double const most = 1e-3 * (direction.y > 0.9 ? 100 : 4);
+            EXPECT_LE(glm::length(here.x - there.x) + glm::length(here.y - there.y), most);
+        }
+    }
+}
+
+TEST(BadInput, Row02AWarpGoesOutGentlyAsTheLightTurnsIntoTheView) {
+    Input<double> in;
+    auto const fade_at = [&in](double radians) {
+        glm::dvec3 const travel = in.view.pose.forward * std::cos(radians) + in.view.pose.up * std::sin(radians);
+        return warp_axes(in.view.pose, travel).fade;
+    };
+    EXPECT_EQ(fade_at(0.0), 0.0);
+    EXPECT_EQ(fade_at(0.09), 0.0);
+    EXPECT_EQ(fade_at(0.55), 1.0);
+    for (double radians = 0; radians < 0.6; radians += 1e-3) {
+        EXPECT_GE(fade_at(radians + 1e-3), fade_at(radians));
+        EXPECT_LE(fade_at(radians + 1e-3), fade_at(radians) + 4e-3);
+    }
+}
+
+TEST(BadInput, Row03ATinyLightDirectionIsNormalizedAndAZeroOneIsAFault) {
     for (float const length : {1e-30f, 1e-38f, 1e30f, 3e38f}) {
         Light<float> const light = directional(glm::vec3(0, -length, 0));
         EXPECT_FALSE(light.faults.any()) << length;
@@ -75,7 +132,7 @@ TEST(BadView, ATinyLightDirectionIsNormalizedAndAZeroOneIsAFault) {
     expect_none_visible(in, Fault::zero_light);
 }
 
-TEST(BadView, ANearDistanceOfZeroLeavesUniformSplitsExactAndLogarithmicOnesFinite) {
+TEST(BadInput, Row04ANearDistanceOfZeroLeavesUniformSplitsExactAndLogarithmicOnesFinite) {
     Splits<double> const uniform = uniform_splits(0.0, 100.0, 4);
     EXPECT_FALSE(uniform.faults.any());
     EXPECT_EQ(uniform.plane[1], 25.0);
@@ -87,7 +144,7 @@ TEST(BadView, ANearDistanceOfZeroLeavesUniformSplitsExactAndLogarithmicOnesFinit
     every_map(in);
 }
 
-TEST(BadView, ANegativeOrCrossedRangeIsEmptyAndNeverSwapped) {
+TEST(BadInput, Row05ANegativeOrCrossedRangeIsEmptyAndNeverSwapped) {
     for (auto const& [z_near, z_far] : {std::pair(-1.0, 10.0), std::pair(10.0, 10.0), std::pair(20.0, 10.0)}) {
         Splits<double> const splits = practical_splits(z_near, z_far, 4);
         EXPECT_EQ(splits.count, 0);
@@ -99,7 +156,7 @@ TEST(BadView, ANegativeOrCrossedRangeIsEmptyAndNeverSwapped) {
     }
 }
 
-TEST(BadView, AnInfiniteFarDistanceIsCutToTheShadowDistance) {
+TEST(BadInput, Row06AnInfiniteFarDistanceIsCutToTheShadowDistance) {
     Input<double> in;
     in.view.z_far = infinity;
     in.cascades.shadow_distance = 80;
@@ -112,7 +169,7 @@ TEST(BadView, AnInfiniteFarDistanceIsCutToTheShadowDistance) {
     every_map(in);
 }
 
-TEST(BadView, RangesOfABillionKeepTheirFarCorners) {
+TEST(BadInput, Row07RangesOfABillionKeepTheirFarCorners) {
     Input<double> in;
     in.view.z_near = 1e-3;
     in.view.z_far = 1e6;
@@ -127,7 +184,7 @@ TEST(BadView, RangesOfABillionKeepTheirFarCorners) {
     every_map(rough);
 }
 
-TEST(BadView, AnImpossibleFieldOfViewIsABadFrustum) {
+TEST(BadInput, Row08AnImpossibleFieldOfViewIsABadFrustum) {
     for (auto const& [fov, aspect] :
          {std::pair(0.0, 1.5), std::pair(-1.0, 1.5), std::pair(3.2, 1.5), std::pair(nan_value, 1.5),
           std::pair(1.0, 0.0), std::pair(1.0, -1.0), std::pair(1.0, nan_value)}) {
@@ -140,7 +197,7 @@ TEST(BadView, AnImpossibleFieldOfViewIsABadFrustum) {
     expect_none_visible(crossed, Fault::bad_frustum);
 }
 
-TEST(BadView, OffCentreAndOrthographicViewsAreNoneOfIt) {
+TEST(BadInput, Row09OffCentreAndOrthographicViewsAreNoneOfIt) {
     Input<double> in;
     in.view.left = -0.1;
     expect_visible(in);
@@ -151,7 +208,7 @@ TEST(BadView, OffCentreAndOrthographicViewsAreNoneOfIt) {
         }
 }
 
-TEST(BadView, AReversedInfiniteOrJitteredProjectionOfTheEyeIsNoneOfItAndGivesTheSameMaps) {
+TEST(BadInput, Row09AReversedInfiniteOrJitteredProjectionOfTheEyeIsNoneOfItAndGivesTheSameMaps) {
     Input<double> in;
     in.view.left *= 0.9;  // off-centre, as jitter and stereo are
     std::vector<Made<double>> const wanted = every_map(in);
@@ -174,7 +231,7 @@ TEST(BadView, AReversedInfiniteOrJitteredProjectionOfTheEyeIsNoneOfItAndGivesThe
         }
 }
 
-TEST(BadView, ALampInTheCornerOfABoxIsNoFault) {
+TEST(BadInput, Row22ALampInTheCornerOfABoxIsNoFault) {
     Input<double> in;
     for (glm::dvec3 const& corner : {in.casters.lo, in.casters.hi, in.receivers.hi, in.view.pose.position}) {
         in.lamp = spot(corner, glm::dvec3(-0.1, -1, -0.2), 0.7, 40.0);
@@ -183,7 +240,23 @@ TEST(BadView, ALampInTheCornerOfABoxIsNoFault) {
     }
 }
 
-TEST(BadView, FarFromTheOriginMapsStayMapsOfTheirLight) {
+TEST(BadInput, Row16AThousandKilometresOutADoubleLosesAFewBillionthsOfATexel) {
+    Light<double> const sun = directional(glm::dvec3(0.4, -1, 0.3));
+    using Wide = long double;
+    for (int step = 0; step < 100; ++step) {
+        Vec3<double> const centre(1e6 + step * 0.37, 120.0, -1e6 + step * 0.11);
+        TexelGrid<double> const grid = texel_grid(light_basis(sun.direction), {centre, 51.2}, 2048, 0.0);
+        ASSERT_TRUE(grid.visible && !grid.faults.any());
+        // Texels of 5 cm, so that the offset is 3e4: its last bit is 4e-9 texels. The place of the centre by the
+        // matrix, and by the axes in long double.
+        Vec4<Wide> const at =
+            Mat4<Wide>(clip_from_world(grid, 0.0, 1.0, gl_zero_to_one_clip)) * Vec4<Wide>(Vec3<Wide>(centre), 1);
+        Wide const by_axes = glm::dot(Vec3<Wide>(grid.basis.x), Vec3<Wide>(centre)) / grid.texel_metres - grid.x;
+        EXPECT_NEAR(static_cast<double>((at.x + 1) / 2 * grid.map_size - by_axes), 0.0, 5e-9);
+    }
+}
+
+TEST(BadInput, Row16FarFromTheOriginMapsStayMapsOfTheirLight) {
     for (double const metres : {1e5, 1e6, 1e7}) {
         Input<double> in;
         glm::dvec3 const away(metres, 0, -metres);
@@ -200,7 +273,7 @@ TEST(BadView, FarFromTheOriginMapsStayMapsOfTheirLight) {
 }
 
 #if defined(__SSE2__)
-TEST(BadView, FlushingDenormalsToZeroChangesNothingButDenormals) {
+TEST(BadInput, Row17FlushingDenormalsToZeroChangesNothingButDenormals) {
     Input<double> in;
     in.sun = directional(glm::dvec3(1e-310, -1, 5e-324));
     in.casters.lo.x = -1e-310;
@@ -224,7 +297,7 @@ TEST(BadView, FlushingDenormalsToZeroChangesNothingButDenormals) {
 }
 #endif
 
-TEST(BadView, AProjectionWithoutSidesIsABadFrustum) {
+TEST(BadInput, Row18AProjectionWithoutSidesIsABadFrustum) {
     for (glm::dmat4 const& singular : {glm::dmat4(0.0), glm::dmat4(nan_value), glm::dmat4(infinity)}) {
         Input<double> in;
         in.view = view_from_projection(in.view.pose, singular, 0.1, 60.0);
@@ -232,7 +305,7 @@ TEST(BadView, AProjectionWithoutSidesIsABadFrustum) {
     }
 }
 
-TEST(BadView, ALightFromBelowIsADirectionLikeAnyOther) {
+TEST(BadInput, Row21ALightFromBelowIsADirectionLikeAnyOther) {
     Input<double> in;
     for (glm::dvec3 const& travel : {glm::dvec3(0, 1, 0), glm::dvec3(0.3, 0.8, -0.1)}) {
         in.sun = directional(travel);
@@ -242,7 +315,7 @@ TEST(BadView, ALightFromBelowIsADirectionLikeAnyOther) {
     }
 }
 
-TEST(BadView, TheAngleOfASpotIsBroughtIntoItsRangeAndARangeOfZeroIsNothing) {
+TEST(BadInput, Row22TheAngleOfASpotIsBroughtIntoItsRangeAndARangeOfZeroIsNothing) {
     for (double const angle : {0.0, -1.0, 1.5707963, 3.0, 1e30}) {
         Light<double> const lamp = spot(glm::dvec3(0, 9, 0), glm::dvec3(0, -1, 0), angle, 40.0);
         EXPECT_EQ(lamp.faults, Faults(Fault::cone_clamped)) << angle;
@@ -259,7 +332,7 @@ TEST(BadView, TheAngleOfASpotIsBroughtIntoItsRangeAndARangeOfZeroIsNothing) {
     }
 }
 
-TEST(BadView, ABentPoseIsMendedAndABrokenOneIsAFault) {
+TEST(BadInput, Row26ABentPoseIsMendedAndABrokenOneIsAFault) {
     Input<double> in;
     in.view.pose.right *= 1.0004;
     expect_visible(in);

@@ -144,6 +144,18 @@ TEST_F(Listing, TakesNoMapOfAnotherLightAndNoBrokenOne) {
     EXPECT_TRUE(list(grid, 16, size, sun, {-1, 0, 4, 4}).faults.has(Fault::bad_region));
 }
 
+// The products of such directions are so small that a rounding is large beside them.
+TEST_F(Listing, TakesTheMapOfASunAHairOffAnAxis) {
+    StorageSize const size = storage_for(48, 32, 16);
+    for (float const hair : {0.0f, 1e-30f, 1e-25f, 1e-12f, 1e-6f})
+        for (int axis = 0; axis < 6; ++axis) {
+            V along = V(0.3f, -0.7f, 0.9f) * hair;
+            along[axis / 2] = axis % 2 == 0 ? 1.0f : -1.0f;
+            Light<float> const noon = directional(along);
+            EXPECT_FALSE(list(sun_map(noon, V(0, 0, 0), 8.0f), 16, size, noon).faults.any()) << hair << ", " << axis;
+        }
+}
+
 TEST(StorageFor, IsNothingForNoPictureAndGrowsWithEverything) {
     EXPECT_EQ(storage_for(0, 10, 16).scalars, 0u);
     EXPECT_EQ(storage_for(10, 10, 0).words, 0u);

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -41,6 +42,12 @@ std::vector<std::string> matches(std::string const& text, std::regex const& patt
     for (auto it = std::sregex_iterator(text.begin(), text.end(), pattern); it != std::sregex_iterator(); ++it)
         found.push_back((*it)[group]);
     return found;
+}
+
+// From a function's name to the brace that closes it, in the first column.
+std::string body_of(std::string const& text, std::string const& name) {
+    std::size_t const begin = text.find(" " + name + "(");
+    return begin == std::string::npos ? std::string() : text.substr(begin, text.find("\n}", begin) - begin);
 }
 
 std::vector<std::string> includes_of(fs::path const& path) {
@@ -108,6 +115,33 @@ TEST(House, EveryPublicFunctionIsInstantiatedByTheCompileTests) {
             EXPECT_TRUE(std::regex_search(called, std::regex("\\b" + name + "\\b"))) << header << ": " << name;
 }
 
+TEST(House, EveryFunctionOfTheGlslLibraryIsHeldAgainstTheCppByATwin) {
+    // A few are steps of one other function and differ from it by a line: that one is asked, and calls them.
+    std::map<std::string, std::string> const steps = {
+        {"sm_slope_at", "sm_slope"}, {"sm_lean_at", "sm_lean"}, {"sm_pixel_plane", "sm_shadow_volume"}};
+    auto const calls = [](std::string const& text, std::string const& name) {
+        return std::regex_search(text, std::regex("\\b" + name + "\\("));
+    };
+    std::string asked, library;
+    for (fs::directory_entry const& entry : fs::directory_iterator(root / "tests/twins"))
+        if (entry.path().extension() == ".comp") asked += code_of(entry.path());
+    int count = 0;
+    for (fs::directory_entry const& entry : fs::directory_iterator(root / "include/shadowmath/glsl")) {
+        std::string const text = code_of(entry.path());
+        for (std::string const& name : matches(text, std::regex(R"(\n\w+ (sm_\w+)\([^;{]*\) \{)"))) {
+            ++count;
+            auto const step = steps.find(name);
+            if (step == steps.end()) {
+                EXPECT_TRUE(calls(asked, name)) << entry.path() << ": no shader of tests/twins asks " << name;
+                continue;
+            }
+            std::string const caller = body_of(text, step->second);
+            EXPECT_TRUE(calls(asked, step->second) && calls(caller, name)) << name << " is no step of " << step->second;
+        }
+    }
+    EXPECT_GE(count, 120);
+}
+
 TEST(House, EveryAssertionIsSeenToFail) {
     std::regex const assertion(R"re(\bSHADOWMATH_ASSERT\([^;]*"([^"]+)"\);)re");
     std::string const broken = text_of(root / "tests/misuse/misuse_test.cpp");
@@ -132,6 +166,18 @@ TEST(House, TheVisualStudioDebuggerKnowsEveryFault) {
         EXPECT_NE(natvis.find(item), std::string::npos) << item;
     }
     EXPECT_GE(count, 16);
+}
+
+TEST(House, BothDebuggersKnowTheSameTypes) {
+    std::string const natvis = text_of(root / "debug/shadowmath.natvis"),
+                      gdb = text_of(root / "debug/shadowmath_gdb.py");
+    auto const seen_by_natvis = matches(natvis, std::regex("<Type Name=\"shadowmath::v0::(\\w+)"));
+    for (std::string const& type : seen_by_natvis)
+        EXPECT_TRUE(std::regex_search(gdb, std::regex("\n    \"" + type + "\": |for kind in \\(.*\\b" + type + "\\b")))
+            << type;
+    for (std::string const& type : matches(gdb, std::regex("\n    \"(\\w+)\": ")))
+        EXPECT_NE(natvis.find("v0::" + type), std::string::npos) << type;
+    EXPECT_GE(seen_by_natvis.size(), 30u);
 }
 
 TEST(House, EveryHeaderHasLawsOrAUnitTest) {

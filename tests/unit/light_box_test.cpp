@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/light_box.hpp"
+#include "tests/support/watched.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,4 +54,15 @@ TEST(LightBox, RebasedFarFromTheOriginKeepsFloatTexelsStill) {
     // NDC offsets in double are known to eps * 1e7 / 8 m; in float to eps.
     EXPECT_NEAR(at.x, wanted.x, 5e-7);
     EXPECT_NEAR(at.y, wanted.y, 5e-7);
+}
+
+TEST(LightBox, WithoutExtentIsNowhereAndDividesNothingByZero) {
+    for (int side = 0; side < 3; ++side) {
+        LightBox<float> box;
+        if (side < 2) box.hi[side] = box.lo[side];
+        if (side == 2) box.depth_hi = box.depth_lo;
+        auto const map = test::watched([&] { return clip_from_world(box, gl_clip); });
+        EXPECT_EQ(map.result, nowhere<float>());
+        EXPECT_TRUE(map.calm()) << side;
+    }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/microquad.hpp"
+#include "tests/support/watched.hpp"
 
 #include <gtest/gtest.h>
 
@@ -110,4 +111,13 @@ TEST(MicroQuad, OfWhatIsNoSurfaceIsNotOk) {
     EXPECT_FALSE(micro_quad(frame, 1, 1, 2.0f, Vec3<float>(0)).ok);
     EXPECT_FALSE(micro_quad(frame, 1, 1, 2.0f, Vec3<float>(0, nan, 1)).ok);
     EXPECT_TRUE(micro_quad(frame, 1, 1, 2.0f, up).ok);
+}
+
+TEST(MicroQuad, OfADepthWhoseReciprocalOverflowsIsNotOkAndDividesNothingByZero) {
+    PixelFrame<float> const frame = pixel_frame(perspective_view<float>({}, 1.0f, 1.0f, 0.1f, 10.0f), 4, 4);
+    float const denormal = std::numeric_limits<float>::denorm_min();
+    auto const quad =
+        test::watched([&] { return micro_quad(frame, 1, 2, denormal, Vec3<float>(0.01f, 0.02f, 0.03f)); });
+    EXPECT_FALSE(quad.result.ok);
+    EXPECT_TRUE(quad.calm());
 }

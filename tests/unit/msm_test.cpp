@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/moments.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/msm.hpp>
 
@@ -45,5 +46,22 @@ TEST(Msm, PacksEachMomentIntoItsWholeRange) {
     for (int k = 0; k < 4; ++k) {
         EXPECT_NEAR(lo[k], 0.0, 1e-4);
         EXPECT_NEAR(hi[k], 1.0, 1e-4);
+    }
+}
+
+TEST(Msm, OfATexelThatWasNeverWrittenDividesNothingByZero) {
+    for (Vec4<float> const& moments :
+         {Vec4<float>(0), Vec4<float>(1), Vec4<float>(0, 1, 0, 1), Vec4<float>(-1, 1, -1, 1)})
+        for (float const depth : {0.0f, 0.25f, 0.5f, 1.0f})
+            for (float const bias : {0.0f, 3e-6f}) {
+                auto const share = test::watched([&] { return msm_visibility(moments, depth, bias); });
+                EXPECT_TRUE(share.result >= 0.0f && share.result <= 1.0f);
+                EXPECT_TRUE(share.calm()) << moments.x << " " << moments.y << " at " << depth;
+            }
+    // Systems that are singular to the last bit.
+    for (Vec4<float> const& moments : {Vec4<float>(0), Vec4<float>(0, 1, 0, 1)}) {
+        auto const solved = test::watched([&] { return detail::solve_hankel(moments, 0.5f); });
+        EXPECT_TRUE(all_finite(solved.result));
+        EXPECT_TRUE(solved.calm());
     }
 }

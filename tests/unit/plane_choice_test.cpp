@@ -70,6 +70,24 @@ TEST(MedianPlane, HasHalfOfThePointsOnEitherSideWhateverTheOutliers) {
     EXPECT_EQ(median_plane<double>(up, nullptr, 0).offset, 0.0);
 }
 
+// Ten points a few metres ahead, a hundred far away and 3 m higher: these take a fifteenth of the pixels of the near
+// ones.
+TEST(MedianPlane, WithWeightsIsNotOutvotedByWhatIsFar) {
+    ViewVolume<double> const view = view_over_ground();
+    Points points;
+    for (int i = 0; i < 110; ++i) {
+        double const depth = i < 10 ? 8.0 : 100.0;
+        V3 p = view.pose.position + view.pose.forward * depth;
+        p.y = i < 10 ? 0.01 * i : 3.0;
+        points.push_back({p, up});
+    }
+    EXPECT_NEAR(-median_plane(up, points.data(), 110).offset, 3.0, 1e-12);
+    EXPECT_NEAR(-weighted_median_plane(view, V3(0, 2, 0), points.data(), 110).offset, 0.05, 0.011);
+    for (auto& p : points) p.point -= view.pose.forward * 500.0;
+    EXPECT_EQ(weighted_median_plane(view, up, points.data(), 110).offset, 0.0) << "all behind the eye";
+    EXPECT_EQ(weighted_median_plane<double>(view, up, nullptr, 0).offset, 0.0);
+}
+
 TEST(PlaneDistortion, IsNothingOnThePlaneItself) {
     Points const points = points_on(V3(0, 0.5, -20), up);
     EXPECT_NEAR(plane_distortion({up, -0.5}, view_over_ground(), slanting, points.data(), count_of(points)), 0.0,
@@ -94,6 +112,7 @@ TEST(ChoosePlane, HasNoMoreDistortionThanMedianSquaresOrMean) {
     };
     EXPECT_EQ(choice.distortion, of(choice.plane));
     EXPECT_LE(choice.distortion, of(median_plane(up, points.data(), count)));
+    EXPECT_LE(choice.distortion, of(weighted_median_plane(view, up, points.data(), count)));
     EXPECT_LE(choice.distortion, of(least_squares_plane(view, points.data(), count)));
     for (double height = 0.0; height <= 1.5; height += 0.05)
         EXPECT_LE(choice.distortion, of({choice.plane.normal, -height}) * 1.001) << height;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -97,4 +99,29 @@ TEST(Polytope, OfWhatIsNotInViewIsEmpty) {
         perspective_view(pose_looking(V3(0.0), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.0, 0.1, 100.0);
     EXPECT_EQ(visible_body(view, Aabb<double>{V3(-1, -1, 1), V3(1, 1, 2)}).edge_count, 0);
     EXPECT_EQ(visible_body(view, Aabb<double>{}).edge_count, 0);
+}
+
+// What rounds to one plane twice may leave the corners of its face linked in another order; nothing of it is lost.
+TEST(Polytope, CutTwiceAlongOnePlaneHoldsWhatItHeldCutOnce) {
+    Aabb<float> const box{Vec3<float>(-10.2845f, -10.1185f, -19.854f), Vec3<float>(9.7355f, 9.5695f, 0.0099f)};
+    Vec4<float> const cut(Vec3<float>(-0.577350259f), -2.22282219f);
+    ConvexBody<float> const once = clipped(convex_body(box), cut);
+    ConvexBody<float> many = once;
+    for (int i = 0; i < 7; ++i) many = clipped(many, cut);
+    // A third cut runs along the links.
+    for (Vec4<float> const& across :
+         {Vec4<float>(1, 0, 0, 0), Vec4<float>(0, -1, 0.5f, 1), Vec4<float>(0.6f, 0.8f, 0, 3)})
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y)
+                for (int z = -1; z <= 1; ++z) {
+                    auto const end = [&](ConvexBody<float> const& body) {
+                        float farthest = -1e9f;
+                        for_each_vertex(clipped(body, across), [&](Vec3<float> const& v) {
+                            farthest = std::max(farthest, glm::dot(Vec3<float>(x, y, z), v));
+                        });
+                        return farthest;
+                    };
+                    // Seven cuts, each of twenty roundings of 35 m.
+                    EXPECT_NEAR(end(many), end(once), 7 * 20 * 35 * std::numeric_limits<float>::epsilon());
+                }
 }

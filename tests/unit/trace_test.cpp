@@ -224,6 +224,19 @@ TYPED_TEST(Tracing, FacingAwayIsDarkAndSkyIsNot) {
     EXPECT_EQ(this->dark_samples(traced<TypeParam>(sky, this->roof(2, 20), this->sun, this->sun_grid(), 8).masks), 0u);
 }
 
+// Its axis says which side of a surface an orthographic eye sees, not where it stands.
+TYPED_TEST(Tracing, AnOrthographicEyeBelowThePlaneSeesTheLitSideOfWhatItLooksDownOn) {
+    using T = typename TypeParam::Scalar;
+    using V = Vec3<typename TypeParam::Scalar>;
+    ViewVolume<T> const eye = orthographic_view<T>(pose_looking(V(0, T(-0.5), 4), V(0, T(-0.2), -1), V(0, 1, 0)), T(-3),
+                                                   T(3), T(-1), T(3), T(0.1), T(100));
+    auto const picture = picture_of_plane(eye, 12, 8, V(0, 0, 0), V(0, 1, 0));
+    ASSERT_TRUE(std::any_of(picture.depth.begin(), picture.depth.end(), [](T depth) { return depth > T(0); }));
+    Traced const lit = traced<TypeParam>(picture, {}, this->sun, this->sun_grid(), 16);
+    EXPECT_EQ(this->dark_samples(lit.masks), 0u);
+    EXPECT_TRUE(laws::agrees_with_segments(picture, lit.masks, {}, this->sun, this->sun_grid()));
+}
+
 TYPED_TEST(Tracing, TakesIndicesAndLeavesOutThoseBeyondTheVertices) {
     using T = typename TypeParam::Scalar;
     using V = Vec3<typename TypeParam::Scalar>;

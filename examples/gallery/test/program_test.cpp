@@ -158,6 +158,7 @@ TEST_F(Gallery, MeasuresEveryWayToDrawTheMapsOfEachSceneAndDriver) {
             EXPECT_GT(way.at(figure).get<long>(), 0) << key << ": " << name << ": " << figure;
         EXPECT_GT(way.at("milliseconds").get<double>(), 0.0);
         EXPECT_GT(way.at(way.at("with_picture").get<bool>() ? "pixels" : "texels").get<long>(), 0) << name;
+        EXPECT_LE(way.at("unlike_off_edges").get<long>(), way.at("unlike_pixels").get<long>());
         if (is_mesa_software(results)) {
             EXPECT_EQ(way.at("unlike_texels"), 0) << key << ": " << name;
             EXPECT_TRUE(way.at("driver").is_object()) << key << ": " << name;
@@ -187,6 +188,53 @@ TEST_F(Gallery, TellsAtLastHowManyPixelsTheDriversDrawUnlike) {
     std::string const last = ": " + std::to_string(unlike) + " of " + std::to_string(pixels) + " pixels unlike\n";
     ASSERT_GE(made_.out.size(), last.size());
     EXPECT_EQ(made_.out.substr(made_.out.size() - last.size()), last);
+}
+
+TEST_F(Gallery, FitsOnEveryDeviceTheMapsOfTheCppAndUsesThemThere) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    EXPECT_EQ(results.at("fits").size(), results.at("scenes").size() * results.at("machine").at("backends").size());
+    for (auto const& fit : results.at("fits")) {
+        EXPECT_GT(fit.at("pictures").get<long>(), 0) << fit.dump();
+        EXPECT_EQ(fit.at("maps").get<long>(), 4 * fit.at("pictures").get<long>()) << fit.dump();
+        EXPECT_EQ(fit.at("pixels").get<long>(), 160 * 90 * fit.at("pictures").get<long>()) << fit.dump();
+        if (!is_mesa_software(results)) continue;
+        EXPECT_EQ(fit.at("unlike_maps"), 0) << fit.dump();
+        EXPECT_EQ(fit.at("unlike_texels"), 0) << fit.dump();
+        EXPECT_LE(fit.at("unlike_pixels").get<long>(), fit.at("pixels").get<long>() / 100000) << fit.dump();
+    }
+    for (auto const& scene : results.at("scenes"))
+        for (auto const& view : scene.at("views")) {
+            if (view.at("light") != "sun") continue;
+            fs::path const shown = place_ / "made" / "images" / scene.at("name").get<std::string>() /
+                                   view.at("name").get<std::string>() / "sdsm-gpu-picture.png";
+            EXPECT_TRUE(fs::exists(shown)) << shown;
+        }
+}
+
+TEST_F(Gallery, FliesThroughEachSceneUnderEveryPolicy) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    std::set<std::string> policies;
+    for (auto const& flight : results.at("flights")) {
+        policies.insert(flight.at("policy").get<std::string>());
+        EXPECT_EQ(flight.at("frames"), 12);
+        EXPECT_GT(flight.at("decisions").get<long>(), 1000) << flight.dump();
+        EXPECT_LE(flight.at("flips_within").get<long>(), flight.at("flips").get<long>()) << flight.dump();
+        if (flight.at("stable").get<bool>()) {
+            EXPECT_EQ(flight.at("flips_within"), 0) << flight.dump();
+        }
+    }
+    for (char const* policy :
+         {"stable", "tight", "rectangle", "focus", "warped", "vdsm-fallback", "sdsm", "chosen-still", "chosen"})
+        EXPECT_TRUE(policies.count(policy)) << policy;
+    EXPECT_EQ(results.at("flights").size(), policies.size() * results.at("scenes").size());
+}
+
+TEST_F(Gallery, BreaksNoPromise) {
+    auto const results = nlohmann::json::parse(text_of(place_ / "made" / "results.json"));
+    EXPECT_EQ(results.at("judged").get<bool>(), is_mesa_software(results));
+    if (is_mesa_software(results)) {
+        EXPECT_TRUE(results.at("broken").empty()) << results.at("broken").dump();
+    }
 }
 
 TEST_F(Gallery, ShowsFewWrongPixelsOnACube) {
@@ -276,6 +324,7 @@ TEST_F(Gallery, TellsWrongUsageWithStatusTwo) {
     expect_refusal("--backend metal --out new", 2, "--help");
     expect_refusal("--scene moon --out new", 2, "--help");
     expect_refusal("--seed minus --out new", 2, "--help");
+    expect_refusal("--flight 1 --out new", 2, "--help");
     expect_refusal("--no-such-option", 2, "--help");
     expect_refusal("--scene none", 2, "none");
     EXPECT_EQ(gallery("--help").status, 0);

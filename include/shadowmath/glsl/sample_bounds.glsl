@@ -22,10 +22,4 @@ bool sm_is_served(vec4 range, float depth) {
     return later >= range.x && sooner < range.z;
 }
 
-// Where the last `share` of [begin, end] starts.
-float sm_fade_begin(float begin, float end, float share) {
-    precise float at = end - share * (end - begin);
-    return at > begin ? at : begin;
-}
-
 #endif

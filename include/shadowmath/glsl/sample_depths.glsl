@@ -25,8 +25,9 @@ int sm_kind_of_depth(float depth, float z_near, float z_far) {
     return depth >= z_near && depth < z_far ? sm_depth_counts : sm_depth_outside;
 }
 
+// The sign is shifted out: -0 is not below a near distance of 0.
 int sm_depth_bin(float z_far, float depth) {
-    int bin = int(floatBitsToUint(depth) >> 18) - int(floatBitsToUint(z_far) >> 18) + sm_depth_bins - 1;
+    int bin = int((floatBitsToUint(depth) & 0x7fffffffu) >> 18) - int(floatBitsToUint(z_far) >> 18) + sm_depth_bins - 1;
     return max(bin, 0);
 }
 

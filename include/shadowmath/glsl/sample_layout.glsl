@@ -5,8 +5,9 @@
 #ifndef SM_SAMPLE_LAYOUT_GLSL
 #define SM_SAMPLE_LAYOUT_GLSL
 
+#include "slice.glsl"
+
 const int sm_depth_bins = 512;
-const int sm_max_splits = 16;
 
 struct sm_SampleFit {
     vec4 basis_x;        // w: z_near, metres of eye depth

@@ -9,8 +9,7 @@
 #define SM_SPLITS_GLSL
 
 #include "finite.glsl"
-
-const int sm_max_splits = 16;
+#include "slice.glsl"
 
 // Those of fault.hpp that splits can have.
 const uint sm_fault_not_finite = 1u << 0;
@@ -81,12 +80,6 @@ struct sm_SliceRange {
     float blend_begin;  // fading into the next map starts here; equal to end where nothing follows
     float end;          // to here
 };
-
-// Where the last `share` of [begin, end] starts; never before begin.
-float sm_fade_begin(float begin, float end, float share) {
-    precise float at = end - share * (end - begin);
-    return at > begin ? at : begin;
-}
 
 // Metres of eye depth that split `index` must serve; `blend` in [0, 1] is the fraction of each split that fades.
 sm_SliceRange sm_slice_range(sm_Splits splits, int index, float blend) {

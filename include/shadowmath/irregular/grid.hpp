@@ -25,6 +25,7 @@
 #include <shadowmath/irregular/mask.hpp>
 #include <shadowmath/irregular/microquad.hpp>
 #include <shadowmath/light.hpp>
+#include <shadowmath/reach.hpp>
 #include <shadowmath/shadow_map.hpp>
 
 #include <cmath>
@@ -538,8 +539,8 @@ inline bool take_map(IrregularBuffer<T>& buffer, ShadowMap<T> const& map, Light<
     T scale[4];
     for (int i = 0; i < 4; ++i) {
         Vec4<T> const r = row(canonical, i);
-        scale[i] =
-            std::abs(r.x * source.x) + std::abs(r.y * source.y) + std::abs(r.z * source.z) + std::abs(r.w * source.w);
+        // Axes are made orthogonal to a rounding of their lengths, however small the products of their coordinates are.
+        scale[i] = largest_of(Vec3<T>(r)) * largest_of(Vec3<T>(source)) + std::abs(r.w * source.w);
     }
     // The law of shadow maps. Matrices come from products of a few others: 2^8 roundings are allowed for.
     Vec4<T> const image = canonical * source;

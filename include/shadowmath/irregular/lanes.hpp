@@ -96,7 +96,7 @@ struct PlainLanes {
     }
     // 1 / a to four roundings; anything where a is 0 or not finite.
     friend PlainLanes reciprocal(PlainLanes const& a) noexcept {
-        return each([&](int k) { return T(1) / a.lane[k]; });
+        return each([&](int k) { return a.lane[k] != T(0) ? T(1) / a.lane[k] : T(0); });
     }
     friend PlainLanes absolute(PlainLanes const& a) noexcept {
         return each([&](int k) { return std::abs(a.lane[k]); });

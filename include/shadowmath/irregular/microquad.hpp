@@ -173,8 +173,9 @@ template <class T>
     T const facing = flat ? -n.z : n.x * x + n.y * y + n.z;
     T const steep = (std::abs(n.x) + std::abs(n.y)) * detail::turn_limit(frame);
     T const divisor = std::copysign(std::abs(facing) > steep ? std::abs(facing) : steep, facing);
-    if (divisor == T(0)) return {};
-    T const scale = T(1) / (flat ? divisor : divisor * depth);
+    T const inverse = flat ? divisor : divisor * depth;
+    if (inverse == T(0)) return {};
+    T const scale = T(1) / inverse;
     MicroQuad<T> quad;
     quad.q_x = n.x * scale;
     quad.q_y = n.y * scale;

@@ -28,6 +28,7 @@ void try_culling(Case& c) {
     bool const good = c.one_in(2);
     Aabb<T> const box = good ? good_box<T>(c) : any_box<T>(c);
     MapMask const mask = c.call([&] { return caster_mask(gathered, box); });
+    c.hash(&mask, 1);
     c.require((mask >> 3) == 0, "a mask has a bit for each map and no other");
     c.require(laws::spans(map_range(mask), mask), "the range holds every bit of the mask");
     T const s = c.uniform<T>(T(0), T(1));

@@ -5,7 +5,9 @@
 #include "tests/laws/bias.hpp"
 #include "tests/laws/filter.hpp"
 #include "tests/laws/footprint.hpp"
+#include "tests/laws/map_ray.hpp"
 #include "tests/laws/sampling.hpp"
+#include "tests/laws/stillness.hpp"
 
 #include <shadowmath/light_box.hpp>
 
@@ -44,10 +46,16 @@ void try_receivers(Case& c) {
     Footprint<T> const texel = c.call([&] {
         return footprint(eye.clip_from_world, Vec2<T>(T(800), T(600)), map.clip_from_world, T(map_size), point, normal);
     });
+    c.hash(&texel.major, 1);
     c.require(laws::is_footprint(texel), "a footprint is two ordered, bounded lengths");
     ShadowMap<T> const maps[] = {map, eye};
     LookUp<T> const look_up = c.call([&] { return by_map(maps, 2, map_size, T(2), point); });
     c.require(laws::is_look_up(look_up, 2), "a look-up names maps that exist");
+    MapRay<T> const ray = c.call([&] { return map_ray(map, point); });
+    T const error = c.call([&] { return light_error_radians(map, light, point); });
+    c.require(laws::is_ray(ray) && laws::is_angle(error), "a ray is a unit direction or none");
+    TexelShift<T> const shift = c.call([&] { return texel_shift(map, eye, map_size, point); });
+    c.require(laws::is_texel_shift(shift), "what is left beside whole texels is at most half of one");
     T const stored = c.number<T>();
     FilterOptions const filter{c.below(6) - 1, c.one_in(2)};
     T const lit = c.call(

@@ -3,9 +3,8 @@
 // Splits and maps from depth samples, NaN and depths behind the far plane among them.
 #include "tests/fuzz/inputs.hpp"
 #include "tests/laws/sample_bounds.hpp"
-#include "tests/laws/shadow_map.hpp"
-
-#include <shadowmath/sdsm.hpp>
+#include "tests/laws/sample_depths.hpp"
+#include "tests/laws/sdsm.hpp"
 
 namespace shadowmath::fuzz {
 namespace {
@@ -32,6 +31,8 @@ void try_samples(Case& c) {
     int const asked = c.below(20) - 2;
     auto const kind = c.one_in(2) ? SampleSplits::adaptive : SampleSplits::even;
     Splits<T> const splits = c.call([&] { return sample_splits(depths, asked, kind); });
+    c.require(laws::is_in_order(depths), "bins are in order");
+    c.require(laws::is_ordered(splits, depths, asked), "splits follow the samples from near to far");
     SampleBounds<T> bounds = c.call([&] { return no_bounds(splits, c.number<T>()); });
     for (int i = 0; i < count; ++i) add(bounds, rays, x[i], y[i], depth[i]);
 
@@ -52,6 +53,20 @@ void try_samples(Case& c) {
     for (Cascade<T> const& cascade : cascades)
         c.require(!cascade.map.visible || laws::is_map_of(cascade.map.clip_from_world, light, options.clip, 256),
                   "a map is a map of its light");
+    // With casters everywhere each sample lies in its map. Wide views far away are all rounding in a float.
+    if (std::abs(view.left) + std::abs(view.right) > T(6) || view.kind == ViewKind::orthographic) return;
+    Aabb<T> const everything{Vec3<T>(T(-1e6)), Vec3<T>(T(1e6))};
+    Cascades<T> const served = fit_samples(rays, bounds, everything, options);
+    for (int i = 0; i < count; ++i) {
+        Vec3<T> const point = from_eye(rays, x[i], y[i], depth[i]);
+        long double const lost = 16 * static_cast<long double>(std::numeric_limits<T>::epsilon()) *
+                                 (2 * glm::length(rays.eye) + 2 * glm::length(point));
+        for (Cascade<T> const& cascade : served)
+            if (depth[i] >= view.z_near && depth[i] < view.z_far && is_served(cascade.range, depth[i]))
+                c.require(cascade.map.visible && laws::holds_sample(cascade.map, rays, point, options.map_size,
+                                                                    options.margin_texels, options.pancake, lost),
+                          "every sample is inside its map, margin included");
+    }
 }
 
 [[maybe_unused]] bool const samples_target =

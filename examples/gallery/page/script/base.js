@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: MIT
 const faults = [];
 window.addEventListener("error", event => faults.push(event.message || "an image did not load"), true);
 
 const data = JSON.parse(document.getElementById("data").textContent);
-const { records, ways, parity, claims, machine, settings, techniques, scenes, palette } = data;
+const { records, ways, parity, fits, flights, judged, broken, claims, machine, settings, techniques, scenes, palette } = data;
 const firstBackend = machine.backends[0].name;
 const byId = id => document.getElementById(id);
 

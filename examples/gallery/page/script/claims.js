@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function claimList() {
   if (!claims.length) byId("claims").hidden = true;
   for (const claim of claims)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One close-up: two of its pictures under a slider, where each technique is wrong, and the figures. All pictures are in
 // the page from the start, so a choice shows at once.
 class CloseUp {

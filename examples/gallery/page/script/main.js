@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page's own test, for index.html#check: every picture of every choice must load, and no script error may occur.
 async function check() {
   const wanted = new Set();
@@ -6,6 +7,7 @@ async function check() {
     wanted.add(at + "truth.png");
     for (const kind of ["picture", "difference", "overlay", "footprint", ...(r.maps ? ["maps"] : [])]) wanted.add(`${at}${r.technique}-${kind}.png`);
   }
+  for (const picture of besidePictures()) wanted.add(picture.source);
   await Promise.all([...wanted].map(source => new Promise(done => {
     const image = new Image();
     image.onload = () => { if (!image.naturalWidth) faults.push(source); done(); };
@@ -23,6 +25,8 @@ for (const scene of scenes) shows.set(scene.name, new Show(scene));
 summary();
 waysTable();
 parityTable();
+beside();
+flightTable();
 closeUps();
 claimList();
 recordTable();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function masthead() {
   const judged = records.reduce((sum, r) => sum + r.lit_facing_pixels, 0);
   const views = scenes.reduce((sum, s) => sum + s.views.length, 0);
@@ -27,6 +28,7 @@ function masthead() {
 function navigation() {
   const links = scenes.map(s => [`#scene-${s.name}`, word(s.name)]);
   if (ways.length) links.push(["#ways", "Ways"]);
+  if (flights.length) links.push(["#flight", "Under way"]);
   if (data.close_ups.length) links.push(["#close-ups", "Close-ups"]);
   links.push(["#claims", "Claims"], ["#theory", "Theory"], ["#records", "Records"], ["#method", "Method"]);
   for (const [href, text] of links) byId("nav").append(element("a", { href }, text));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function method() {
   for (const place of document.querySelectorAll("[data-setting]")) place.textContent = settings[place.dataset.setting];
   const taps = 2 * settings.filter_radius + 1;

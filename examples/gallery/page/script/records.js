@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function recordTable() {
   const columns = [
     ["Scene", "scene"], ["View", "view"], ["Technique", "technique"], ["Driver", "backend"],

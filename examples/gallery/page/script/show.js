@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 const swatch = (colour, text) =>
   element("span", {}, element("span", { class: "swatch", style: `background:${colour}`, "aria-hidden": "true" }), text);
 const legends = {

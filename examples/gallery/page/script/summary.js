@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function summary() {
   const columns = [
     ["Footprint, p95", "footprint_p95", number], ["Map used", "map_used_fraction", percent],

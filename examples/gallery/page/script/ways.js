@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 const totalOf = (rows, key) => rows.reduce((sum, row) => sum + row[key], 0);
 const whole = x => x.toLocaleString("en");
 const mebibytes = w => (w.maps_in_memory * w.map_size ** 2 * 4 / 2 ** 20).toFixed(0);
@@ -80,8 +81,29 @@ function waysFound() {
   return found.join(" ");
 }
 
+function fitsFound() {
+  const [maps, unlike, pictures] = ["maps", "unlike_maps", "pictures"].map(key => totalOf(fits, key));
+  if (!maps) return "";
+  return `${whole(maps)} maps in ${whole(pictures)} pictures were fitted on the device to the depth that the eye saw, and used there: ` +
+    (unlike ? `${whole(unlike)} are not the C++’s` : "all have the bits of the C++’s matrices") +
+    `; of ${whole(totalOf(fits, "texels"))} texels drawn with them ${whole(totalOf(fits, "unlike_texels"))} and of ` +
+    `${whole(totalOf(fits, "pixels"))} pixels ${whole(totalOf(fits, "unlike_pixels"))} are unlike.`;
+}
+
+// What promises.hpp found.
+function verdict() {
+  if (!judged) return "These drivers do not share a rasteriser, so their differences are told but not judged.";
+  return broken.length ? `Broken here, against what is promised: ${broken.join("; ")}.` :
+    "Nothing that is promised is broken here: the same texels covered, depths within 2 ulp, pixels alike off edges, the same maps " +
+    "in every way, no triangle drawn into a map that its object does not cast into, and the device’s fits those of the C++.";
+}
+
 function parityTable() {
-  if (!parity.length) byId("parity").hidden = true;
+  byId("fits-found").textContent = fitsFound();
+  byId("judged").textContent = verdict();
+  byId("judged").classList.toggle("warning", judged && broken.length > 0);
+  byId("parity-table").hidden = !parity.length;
+  if (!parity.length) return;
   const columns = [
     ["Scene", p => word(p.scene)], ["Driver", p => p.backend], ["Maps", p => whole(p.maps)], ["Texels covered", p => whole(p.covered_texels)],
     ["in one only", p => whole(p.covered_in_one)], ["at another depth", p => whole(p.unlike_texels)], ["ulp, at most", p => whole(p.largest_ulp)],
@@ -89,4 +111,26 @@ function parityTable() {
   byId("parity-table").append(
     element("thead", {}, element("tr", {}, ...columns.map(([title], i) => element("th", { scope: "col", class: i < 2 ? "left" : "" }, title)))),
     element("tbody", {}, ...parity.map(p => element("tr", {}, ...columns.map(([, show], i) => element("td", { class: i < 2 ? "left" : "" }, show(p)))))));
+}
+
+// The first view of each scene as every driver drew it.
+function besidePictures() {
+  return scenes.flatMap(s => data.shown_on_every_driver.flatMap(id => machine.backends
+    .filter(b => matching({ scene: s.name, view: s.views[0].name, technique: id, backend: b.name }).length)
+    .map((b, i) => ({ scene: s, id, driver: b.name, text: `${word(s.name)}, ${technique(id).title}, ${b.name}`,
+      source: `${folder(s.name, s.views[0].name)}${id}-picture${i ? "-" + b.name : ""}.png` }))));
+}
+
+function beside() {
+  if (machine.backends.length < 2) return;
+  const all = besidePictures();
+  for (const s of scenes)
+    for (const id of data.shown_on_every_driver) {
+      const mine = all.filter(p => p.scene === s && p.id === id);
+      if (mine.length) byId("beside").append(element("h4", {}, `${word(s.name)}: ${technique(id).title}`),
+        element("div", { class: "beside", style: `--count:${mine.length}` }, ...mine.map(p => element("figure", {},
+          element("button", { type: "button", class: "frame", "aria-label": `Enlarge. ${p.text}`, onclick: () => zoom(p.source, p.text) },
+            element("img", { src: p.source, alt: p.text })),
+          element("figcaption", {}, p.driver)))));
+    }
 }

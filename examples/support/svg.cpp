@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "examples/gallery/svg.hpp"
+#include "examples/support/svg.hpp"
 
 #include <cmath>
 #include <cstdio>
 
-namespace shadowmath::gallery {
+namespace shadowmath::example {
 namespace {
 
 std::string number(double value) {
@@ -56,9 +56,11 @@ std::string figure(double value) {
     return shown;
 }
 
-Svg::Svg(double width, double height, std::string_view title)
+Svg::Svg(double width, double height, std::string_view title, std::string_view style)
     : text_("<svg class=\"chart\" role=\"img\" viewBox=\"0 0 " + number(width) + " " + number(height) +
-            "\" xmlns=\"http://www.w3.org/2000/svg\"><title>" + escaped(title) + "</title>\n") {}
+            "\" xmlns=\"http://www.w3.org/2000/svg\"><title>" + escaped(title) + "</title>\n") {
+    if (!style.empty()) text_.append("<style>").append(style).append("</style>\n");
+}
 
 void Svg::line(double x0, double y0, double x1, double y1, std::string_view css_class) {
     text_ += "<line" + attribute("x1", x0) + attribute("y1", y0) + attribute("x2", x1) + attribute("y2", y1) +
@@ -69,6 +71,12 @@ void Svg::polyline(Points const& points, std::string_view css_class) {
     std::string path;
     for (auto const& [x, y] : points) path += number(x) + "," + number(y) + " ";
     text_ += "<polyline" + attribute("points", path) + attribute("class", css_class) + "/>\n";
+}
+
+void Svg::polygon(Points const& points, std::string_view css_class) {
+    std::string path;
+    for (auto const& [x, y] : points) path += number(x) + "," + number(y) + " ";
+    text_ += "<polygon" + attribute("points", path) + attribute("class", css_class) + "/>\n";
 }
 
 void Svg::dot(double x, double y, double radius, std::string_view css_class, std::string_view hint) {
@@ -86,4 +94,4 @@ void Svg::text(double x, double y, std::string_view anchor, std::string_view css
              attribute("class", css_class) + ">" + escaped(text) + "</text>\n";
 }
 
-}  // namespace shadowmath::gallery
+}  // namespace shadowmath::example

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "examples/gallery/png.hpp"
+#include "examples/support/png.hpp"
 
 #include <png.h>
 
 #include <stdexcept>
 
-namespace shadowmath::gallery {
+namespace shadowmath::example {
 namespace {
 
 void write(std::filesystem::path const& path, backend::Extent extent, std::uint32_t format, int channels,
@@ -35,4 +35,4 @@ void write_png(std::filesystem::path const& path, IndexedPicture const& picture)
           picture.palette.data(), picture.palette.size());
 }
 
-}  // namespace shadowmath::gallery
+}  // namespace shadowmath::example

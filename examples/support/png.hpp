@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace shadowmath::gallery {
+namespace shadowmath::example {
 
 using Colour = std::array<std::uint8_t, 3>;  // sRGB
 
@@ -24,4 +24,4 @@ struct IndexedPicture {
 void write_png(std::filesystem::path const& path, backend::Image<backend::Rgba8> const& picture);  // alpha is dropped
 void write_png(std::filesystem::path const& path, IndexedPicture const& picture);
 
-}  // namespace shadowmath::gallery
+}  // namespace shadowmath::example

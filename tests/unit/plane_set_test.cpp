@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include <shadowmath/by_footprint.hpp>
+#include <shadowmath/cascades.hpp>
+#include <shadowmath/plane_set.hpp>
+
+#include "tests/laws/by_footprint.hpp"
+#include "tests/laws/shadow_map.hpp"
+#include "tests/support/watched.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace shadowmath;
+
+namespace {
+
+using V2 = glm::dvec2;
+using V3 = glm::dvec3;
+using Points = std::vector<SurfacePoint<double>>;
+
+Light<double> const slanting = directional(V3(0.5, -1, -0.7));
+ViewVolume<double> const view =
+    perspective_view(pose_looking(V3(0, 6, 0), V3(0.1, -0.15, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 200.0);
+V3 const up(0, 1, 0), ahead(0, 0, 1);
+
+// A floor up to a wall 40 m ahead; of every five points `of_five` on the wall.
+Points floor_and_wall(int of_five) {
+    Points points;
+    for (int i = 0; i < 400; ++i) {
+        double const across = (i % 20) / 20.0 - 0.5, along = (i / 20) / 20.0;
+        if (i % 5 < of_five)
+            points.push_back({V3(across * 40, along * 15, -40), ahead});
+        else
+            points.push_back({V3(across * 30, 0, -4 - along * 34), up});
+    }
+    return points;
+}
+
+int count_of(Points const& points) {
+    return static_cast<int>(points.size());
+}
+
+bool is_floor(ShadowPlane<double> const& plane) {
+    return std::abs(glm::dot(plane.normal, up)) > 0.999 && std::abs(plane.offset) < 1e-9;
+}
+
+bool is_wall(ShadowPlane<double> const& plane) {
+    return std::abs(glm::dot(plane.normal, ahead)) > 0.999 && std::abs(plane.offset - 40.0) < 1e-9;
+}
+
+}  // namespace
+
+TEST(ChoosePlanes, FindsFloorAndWallTheLargerOneFirst) {
+    // The wall's map serves what lies before the wall too.
+    for (int const of_five : {1, 3}) {
+        Points const points = floor_and_wall(of_five);
+        auto const planes = choose_planes(view, slanting, points.data(), count_of(points));
+        ASSERT_EQ(planes.count, 2) << of_five;
+        EXPECT_TRUE(of_five == 1 ? is_floor(planes.at[0]) : is_wall(planes.at[0])) << of_five;
+        EXPECT_TRUE(of_five == 1 ? is_wall(planes.at[1]) : is_floor(planes.at[1])) << of_five;
+        EXPECT_GE(planes.share[0], planes.share[1]);
+        EXPECT_NEAR(planes.share[0] + planes.share[1], 1.0, 1e-12);
+    }
+}
+
+TEST(ChoosePlanes, LeaveOutAPlaneThatIsNotWorthAMap) {
+    Points points = floor_and_wall(0);
+    for (std::size_t i = 0; i < points.size(); i += 11)
+        points[i] = {V3(double(i % 20) - 10, 1.0 + 0.01 * double(i), -40), ahead};
+    PlaneSetOptions<double> options;
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 1);
+    options.least_share = 0.05;
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 2);
+    options.most = 1;
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 1);
+    options.most = 0;
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 0);
+}
+
+TEST(ChoosePlanes, KeepTheLastPlanesWhileOthersAreLittleBetter) {
+    Points const points = floor_and_wall(1);
+    PlaneSet<double> last;
+    last.count = 1;
+    last.at[0] = {up, -1e-3};  // a millimetre high: as good as the floor itself
+    auto const kept = choose_planes(view, slanting, points.data(), count_of(points), {}, &last);
+    ASSERT_EQ(kept.count, 2);
+    EXPECT_EQ(kept.at[0].offset, -1e-3);
+    last.at[0] = {up, -5.0};  // just below the eye: no good to anyone
+    EXPECT_TRUE(is_floor(choose_planes(view, slanting, points.data(), count_of(points), {}, &last).at[0]));
+}
+
+TEST(ChoosePlanes, HaveNothingToChooseWithoutPointsOrLight) {
+    Points points = floor_and_wall(2);
+    EXPECT_EQ(choose_planes<double>(view, slanting, nullptr, 0).count, 0);
+    EXPECT_EQ(choose_planes(view, directional(V3(0.0)), points.data(), count_of(points)).count, 0);
+    // From below and behind, no sample is lit.
+    EXPECT_EQ(choose_planes(view, directional(V3(0, 1, 1)), points.data(), count_of(points)).count, 0);
+    PlaneSetOptions<double> options;
+    options.good_pixels = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 0);
+}
+
+TEST(ChoosePlanes, NeitherAllocateNorRaiseAFlag) {
+    Points const points = floor_and_wall(2);
+    EXPECT_TRUE(test::watched([&] { return choose_planes(view, slanting, points.data(), count_of(points)); }).calm());
+}
+
+// The whole way: a map on each plane, a cascade behind them, the finest at each point.
+TEST(ByFootprint, OfMapsOnFloorAndWallIsFinerThanEitherAndThanTheCascadeBehindThem) {
+    Points const points = floor_and_wall(2);
+    Aabb<double> const world{V3(-60, 0, -41), V3(60, 15, 5)}, casters{V3(-60, 0, -41), V3(60, 30, 20)};
+    auto const planes = choose_planes(view, slanting, points.data(), count_of(points));
+    int const size = 1024;
+    std::vector<ShadowMap<double>> maps;
+    for (int i = 0; i < planes.count; ++i) {
+        VdsmOptions<double> options;
+        options.map_size = size;
+        maps.push_back(view_dependent_map(view, slanting, planes.at[std::size_t(i)], casters, world, options, gl_clip));
+        EXPECT_TRUE(laws::is_map_of(maps.back().clip_from_world, slanting, gl_clip));
+    }
+    CascadeOptions<double> options;
+    options.count = 1;
+    options.map_size = size;
+    options.fit = CascadeFit::rectangle;
+    maps.push_back(fit_cascades(view, slanting, casters, world, options).at[0].map);
+    Mat4<double> const eye = clip_from_world(view, ClipSpace{});
+    V2 const picture(1600, 1000);
+    auto const mean = [&](int first, int count) {
+        double sum = 0.0;
+        for (auto const& p : points) {
+            auto const at = by_footprint(maps.data() + first, count, size, 2.0, eye, picture, p.point, p.normal);
+            EXPECT_TRUE(laws::is_finest(at, maps.data() + first, count, size, 2.0, eye, picture, p.point, p.normal));
+            sum += at.first < 0 ? 100.0
+                                : footprint(eye, picture, maps[std::size_t(first + at.first)].clip_from_world,
+                                            double(size), p.point, p.normal)
+                                      .major;
+        }
+        return sum / double(points.size());
+    };
+    double const together = mean(0, 3);
+    for (int alone = 0; alone < 2; ++alone) EXPECT_LT(together, 0.85 * mean(alone, 1)) << alone;
+    EXPECT_LT(together, 0.3 * mean(2, 1)) << "the cascade";
+    std::array<int, 3> used{};
+    for (auto const& p : points)
+        ++used[std::size_t(by_footprint(maps.data(), 3, size, 2.0, eye, picture, p.point, p.normal).first)];
+    EXPECT_GT(used[0], 100);
+    EXPECT_GT(used[1], 100);
+}
+
+TEST(ByFootprint, MixesHalfAndHalfWhereTwoMapsAreAlikeAndNotBeyondTheBand) {
+    auto const map_of = [](double half) {
+        ShadowMap<double> map;
+        map.visible = true;
+        map.clip = gl_zero_to_one_clip;
+        map.clip_from_world = clip_from_world(
+            LightBox<double>{light_basis(slanting.direction), V2(-half), V2(half), -100.0, 100.0}, map.clip);
+        return map;
+    };
+    Mat4<double> const eye = clip_from_world(view, ClipSpace{});
+    auto const at = [&](double a, double b, double band) {
+        std::array const maps{map_of(a), map_of(b)};
+        return by_footprint(maps.data(), 2, 1024, 2.0, eye, V2(1600, 1000), V3(0, 0, -10), up, band);
+    };
+    LookUp<double> const equal = at(30, 30, 0.25), near_it = at(33, 30, 0.25), beyond = at(60, 30, 0.25);
+    EXPECT_EQ(equal.first, 0);
+    EXPECT_EQ(equal.second, 1);
+    EXPECT_EQ(equal.blend, 0.5);
+    EXPECT_EQ(near_it.first, 1);
+    EXPECT_EQ(near_it.second, 0);
+    EXPECT_NEAR(near_it.blend, 0.5 * (1 - 0.1 / 0.25), 1e-12);
+    EXPECT_EQ(beyond.first, 1);
+    EXPECT_EQ(beyond.second, -1);
+    EXPECT_EQ(beyond.blend, 0.0);
+    EXPECT_EQ(at(33, 30, 0.0).second, -1);
+    EXPECT_EQ(at(33, 30, std::numeric_limits<double>::quiet_NaN()).second, -1);
+    EXPECT_EQ(at(5, 6, 0.25).first, -1) << "neither holds the point";
+    EXPECT_EQ(by_footprint<double>(nullptr, 0, 1024, 2.0, eye, V2(1600, 1000), V3(0, 0, -10), up).first, -1);
+}

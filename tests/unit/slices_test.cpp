@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "tests/laws/slices.hpp"
+#include "tests/support/watched.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+
+using namespace shadowmath;
+
+namespace {
+
+ViewVolume<float> some_view() {
+    Pose<float> const pose = pose_looking(Vec3<float>(3, 2, 8), Vec3<float>(0.1f, -0.2f, -1), Vec3<float>(0, 1, 0));
+    return perspective_view(pose, 1.0f, 1.5f, 0.1f, 60.0f);
+}
+
+void expect_nowhere(ViewVolume<float> const& view, LightBasis<float> const& basis, Splits<float> const& splits,
+                    float border) {
+    Mat4<float> boxes[max_splits], spheres[max_splits];
+    auto const boxed = test::watched([&] { return fit_slice_boxes(view, basis, splits, border, gl_clip, boxes); });
+    auto const rounded =
+        test::watched([&] { return fit_slice_spheres(view, basis, splits, 512, border * 512, gl_clip, spheres); });
+    EXPECT_FALSE(boxed.result);
+    EXPECT_FALSE(rounded.result);
+    for (int i = 0; i < splits.count; ++i) {
+        EXPECT_EQ(boxes[i], nowhere<float>());
+        EXPECT_EQ(spheres[i], nowhere<float>());
+    }
+}
+
+}  // namespace
+
+TEST(Slices, OfAGoodViewHoldTheirCornersInEveryConvention) {
+    ViewVolume<float> const view = some_view();
+    LightBasis<float> const basis = light_basis(directional(Vec3<float>(0.4f, -1, 0.3f)).direction);
+    Splits<float> const splits = practical_splits(0.1f, 60.0f, 4);
+    for (ClipSpace const clip : {gl_clip, vulkan_clip, d3d_clip, reversed(d3d_clip), reversed(vulkan_clip)}) {
+        Mat4<float> boxes[max_splits], spheres[max_splits];
+        ASSERT_TRUE(fit_slice_boxes(view, basis, splits, 0.01f, clip, boxes));
+        ASSERT_TRUE(fit_slice_spheres(view, basis, splits, 512, 2.0f, clip, spheres));
+        for (int i = 0; i < 4; ++i) {
+            ViewVolume<float> const part = slice(view, slice_range(splits, i));
+            EXPECT_TRUE(laws::holds_corners(boxes[i], clip, part, 0.02L));
+            EXPECT_TRUE(laws::is_filled(boxes[i], clip, part, 0.01f));
+            EXPECT_TRUE(laws::is_on_the_grid(spheres[i], basis, part, 512, 2.0f, clip));
+        }
+    }
+}
+
+// From 5e8 m away the rounding of an axis 1e12 long would leave a map no extent.
+TEST(Slices, OfALightWithoutUnitAxesAreNowhere) {
+    ViewVolume<float> view = some_view();
+    Splits<float> const splits = uniform_splits(0.1f, 60.0f, 2);
+    for (float const length : {2.5f, 1e12f, std::numeric_limits<float>::infinity()})
+        for (int axis = 0; axis < 9; ++axis) {
+            LightBasis<float> basis;
+            (axis < 3 ? basis.x : axis < 6 ? basis.y : basis.depth)[axis % 3] = length;
+            view.pose.position.x = 5.5994e8f;
+            expect_nowhere(view, basis, splits, 0.0f);
+        }
+    Mat4<float> maps[max_splits];
+    EXPECT_TRUE(fit_slice_boxes(some_view(), LightBasis<float>{}, splits, 0.0f, gl_clip, maps));
+}
+
+TEST(Slices, OfNoViewNoSplitsOrNoRoomAreNowhere) {
+    LightBasis<float> const basis;
+    Splits<float> const splits = uniform_splits(0.1f, 60.0f, 2);
+    ViewVolume<float> crossed = some_view();
+    std::swap(crossed.left, crossed.right);
+    expect_nowhere(crossed, basis, splits, 0.0f);
+    ViewVolume<float> upside_down = some_view();
+    upside_down.top = upside_down.bottom;
+    expect_nowhere(upside_down, basis, splits, 0.0f);
+    ViewVolume<float> beyond = some_view();
+    beyond.pose.position.z = 0x1p61f;
+    expect_nowhere(beyond, basis, splits, 0.0f);
+    for (float const border : {-0.01f, 0.5f, std::numeric_limits<float>::quiet_NaN()}) {
+        Mat4<float> maps[max_splits];
+        EXPECT_FALSE(fit_slice_boxes(some_view(), basis, splits, border, gl_clip, maps));
+        EXPECT_EQ(maps[1], nowhere<float>());
+    }
+    Mat4<float> maps[max_splits];
+    EXPECT_FALSE(fit_slice_spheres(some_view(), basis, splits, 4, 2.0f, gl_clip, maps));
+    EXPECT_EQ(maps[1], nowhere<float>());
+    Splits<float> unordered = splits;
+    unordered.plane[1] = unordered.plane[2];
+    expect_nowhere(some_view(), basis, unordered, 0.0f);
+    unordered = splits;
+    unordered.plane[0] = -1;
+    expect_nowhere(some_view(), basis, unordered, 0.0f);
+    unordered = splits;
+    unordered.plane[2] = std::numeric_limits<float>::infinity();
+    expect_nowhere(some_view(), basis, unordered, 0.0f);
+    unordered = splits;
+    unordered.count = 0;
+    EXPECT_FALSE(fit_slice_boxes(some_view(), basis, unordered, 0.0f, gl_clip, maps));
+}
