@@ -11,4 +11,4 @@ if ! command -v xvfb-run > /dev/null; then
     printf 'SKIPPED: there is no xvfb-run here (xvfb, xauth)\n'
     exit 77
 fi
-exec xvfb-run --auto-servernum --server-args='-screen 0 640x480x24' "$1" --quick --check --out "$2"
+exec "$(dirname -- "$0")/on_a_display.sh" "$1" --quick --check --out "$2"

@@ -74,8 +74,10 @@ public:
                 {"pssm-065-holding", "PSSM, λ 0.65, first map that holds the point", 4},
                 {"stable", "shadowmath, stable cascades, λ 0.65", 4, true},
                 {"stable-holding", "shadowmath, stable cascades, λ 0.65, first map that holds the point", 4, true},
-                {"tight", "shadowmath, tight cascades, λ 0.65", 4, true, "pssm-065"},
-                {"tight-holding", "shadowmath, tight cascades, λ 0.65, first map that holds the point", 4, true,
+                {"tight", "shadowmath, tight cascades, λ 0.65", 4, true},
+                {"tight-holding", "shadowmath, tight cascades, λ 0.65, first map that holds the point", 4, true},
+                {"focused-4", "shadowmath, focused cascades, λ 0.65", 4, true, "pssm"},
+                {"focused-4-holding", "shadowmath, focused cascades, λ 0.65, first map that holds the point", 4, true,
                  "pssm-065-holding"},
                 {"default", "Default", 1},
                 {"focused", "Focused", 1},
@@ -144,6 +146,8 @@ public:
             for (std::size_t i = 0; i < std::size_t(set_up.maps); ++i)
                 aimed.setup->getShadowCamera(scene_, camera_, target.viewport(), sun_, shadow_cameras[i], i);
         });
+        // A set-up that leaves the cameras as they are (PlaneOptimal does at times) must not profit from the last.
+        for (Ogre::Camera* const camera : shadow_cameras) to_ogre::aim(*camera, ShadowMap<float>{});
         scene_->setShadowCameraSetup(Ogre::DefaultShadowCameraSetup::create());
         return drawn;
     }
@@ -307,7 +311,7 @@ private:
         options.map_size = map_size;
         options.lambda = lambda;
         if (id.starts_with("tight")) options.fit = CascadeFit::tight;
-        if (id == "focus") options.fit = CascadeFit::focus;
+        if (id.starts_with("focus")) options.fit = CascadeFit::focus;
         if (id == "warped") options.fit = CascadeFit::warped;
         auto const ours = std::make_shared<ShadowmathCameraSetup>(options);
         return {ours, !holding, [ours] { return ours->split_ends(); }};

@@ -6,13 +6,11 @@
 //     scene_manager->setShadowTextureCountPerLightType(Ogre::Light::LT_DIRECTIONAL, options.count);
 //     scene_manager->setShadowCameraSetup(setup);
 //
-// It takes the place of PSSMShadowCameraSetup. Materials stay as they are: `texture_viewproj_matrix` gives the
-// matrices, `split_ends` what an integrated PSSM material calls its split points. Spot lights are served too, with one
-// map.
+// In place of PSSMShadowCameraSetup. Materials stay as they are: `texture_viewproj_matrix` gives the matrices,
+// `split_ends` what an integrated PSSM material calls its split points. Spot lights are served too, with one map.
 //
 // OGRE asks for one shadow camera after the other; all are fitted when it asks for the first. What it hands over is in
-// the convention of OpenGL, whatever it renders with, and so must be what it gets back: CascadeOptions::clip stays
-// gl_clip.
+// the convention of OpenGL, whatever it renders with, and so must be what it gets: CascadeOptions::clip stays gl_clip.
 #pragma once
 
 #include <shadowmath/cascades.hpp>
@@ -152,8 +150,7 @@ private:
 };
 
 // In place of PlaneOptimalShadowCameraSetup: texels as the eye sees them, on one plane. The first map is exact there;
-// a second one, if the scene manager has two a light, is fitted to everything in view, for what the first does not
-// hold.
+// a second one, if the scene manager has two a light, is fitted to all in view, for what the first does not hold.
 class ShadowmathPlaneSetup : public Ogre::ShadowCameraSetup {
 public:
     ShadowmathPlaneSetup(Ogre::Plane const& plane, int map_size)

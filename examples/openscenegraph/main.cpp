@@ -49,7 +49,7 @@ public:
                 {"lispsm", "LightSpacePerspectiveShadowMapCB", 1},
                 {"vdsm", "ViewDependentShadowMap", 1},
                 {"focus", "shadowmath, focused map", 1, true, "minimal-cull"},
-                {"warped", "shadowmath, warped map", 1, true, "lispsm"}};
+                {"warped", "shadowmath, warped map", 1, true}};
     }
 
     void load(backend::Scene const& scene) override {
@@ -197,7 +197,7 @@ private:
 
         static TechniquePointer technique(SetUp const& set_up, scenes::View const& view) {
             std::string const& id = set_up.id;
-            auto const standard = [&view](auto* technique) {
+            auto const standard = [](auto* technique) {
                 technique->setTextureSize(osg::Vec2s(map_size, map_size));
                 return technique;
             };

@@ -2,14 +2,12 @@
 //
 // shadowmath as a shadow technique of OpenSceneGraph 3.6: the one file to copy into a project.
 //
-//     osg::ref_ptr<ShadowmathCascades> cascades = new ShadowmathCascades(options);  //
-// shadowmath::CascadeOptions<double>
+//     osg::ref_ptr<ShadowmathCascades> cascades = new ShadowmathCascades(options);  // CascadeOptions<double>
 //     osg::ref_ptr<osgShadow::ShadowedScene> scene = new osgShadow::ShadowedScene(cascades.get());
 //
 // Each map is a depth texture with comparison on, and a texgen in eye space, on texture units from base_unit on, as the
-// techniques of osgShadow leave theirs: a shader that reads those reads these. split_ends() is a uniform of the eye
-// depths at which the splits end. One view; one light, sun or spot: the first that is found. In double, as
-// OpenSceneGraph is.
+// techniques of osgShadow leave theirs: a shader that reads those reads these. split_ends() is a uniform of the depths
+// at which the splits end. One view; one light, sun or spot: the first that is found. In double, as OpenSceneGraph is.
 #pragma once
 
 #include <shadowmath/cascades.hpp>
@@ -41,8 +39,7 @@ inline glm::dmat4 matrix(osg::Matrixd const& from) {
     return glm::make_mat4(from.ptr());
 }
 
-// The sides come from the projection, so a camera off its centre is right too; so does the near distance, as it was
-// set.
+// The sides come from the projection, so a camera off its centre is right too; so does the near distance, as was set.
 inline shadowmath::ViewVolume<double> view(osg::Matrixd const& eye_from_world, osg::Matrixd const& projection) {
     glm::dmat4 const at = matrix(osg::Matrixd::inverse(eye_from_world));
     shadowmath::Pose<double> const pose{glm::dvec3(at[3]), glm::dvec3(at[0]), glm::dvec3(at[1]), -glm::dvec3(at[2])};
