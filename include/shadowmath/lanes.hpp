@@ -49,6 +49,12 @@ struct Lanes {
         auto const less = [](T x, T y) { return x < y ? x : y; };
         return {{less(a.at[0], b.at[0]), less(a.at[1], b.at[1]), less(a.at[2], b.at[2]), less(a.at[3], b.at[3])}};
     }
+    // Place by place, a <= b ? then : otherwise.
+    friend Lanes where_at_most(Lanes const& a, Lanes const& b, Lanes const& then, Lanes const& otherwise) noexcept {
+        Lanes chosen;
+        for (int i = 0; i < 4; ++i) chosen.at[i] = a.at[i] <= b.at[i] ? then.at[i] : otherwise.at[i];
+        return chosen;
+    }
     friend Lanes root(Lanes const& a) noexcept {
         return {{std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3])}};
     }
@@ -72,6 +78,9 @@ struct Lanes<float> {
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
     friend Lanes operator/(Lanes const& a, Lanes const& b) noexcept { return {a.at / b.at}; }
+    friend Lanes where_at_most(Lanes const& a, Lanes const& b, Lanes const& then, Lanes const& otherwise) noexcept {
+        return {a.at <= b.at ? then.at : otherwise.at};
+    }
 #if SHADOWMATH_NAMES_SSE
     friend Lanes least(Lanes const& a, Lanes const& b) noexcept { return {__builtin_ia32_minps(a.at, b.at)}; }
     friend Lanes largest(Lanes const& a, Lanes const& b) noexcept { return {__builtin_ia32_maxps(a.at, b.at)}; }
