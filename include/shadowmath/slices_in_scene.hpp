@@ -116,8 +116,8 @@ struct ViewOfBox {
 
 // False where the numbers are none that products of three can be made of, or nothing is there.
 template <class T>
-[[nodiscard]] inline bool look_at_box(ViewVolume<T> const& view, T farthest, Aabb<T> const& scene,
-                                      ViewOfBox<T>& seen) noexcept {
+[[nodiscard]] inline bool look_at_box(ViewVolume<T> const& view, LightBasis<T> const& basis, T farthest,
+                                      Aabb<T> const& scene, ViewOfBox<T>& seen) noexcept {
     constexpr T most = T(1e12);
     auto const bound = order_of(most);
     auto const size = [](T value) { return order_of(std::abs(value)); };
@@ -126,6 +126,9 @@ template <class T>
     Vec3<T> const& eye = view.pose.position;
     good = good & (size(sides) <= bound) & (size(eye.x) <= bound) & (size(eye.y) <= bound) & (size(eye.z) <= bound);
     if (!good || !all_finite(scene) || is_empty(scene)) return false;
+    T const axes = absolute_sum(view.pose.right) + absolute_sum(view.pose.up) + absolute_sum(view.pose.forward) +
+                   absolute_sum(basis.x) + absolute_sum(basis.y) + absolute_sum(basis.depth);
+    if (!(axes <= T(12))) return false;  // six unit vectors sum up to less
     bool const flat = view.kind == ViewKind::orthographic;
     T const reach = flat ? farthest + sides : farthest * (T(1) + sides);
     if (!(reach <= most)) return false;
@@ -297,7 +300,7 @@ template <class T, class Visit>
     ViewInLight<T> checked;
     ViewOfBox<T> seen;
     if (!look(basis, view, checked) || !in_range(splits) ||
-        !look_at_box(view, splits.plane[splits.count], scene, seen))
+        !look_at_box(view, basis, splits.plane[splits.count], scene, seen))
         return false;
     for (int first = 0; first < splits.count; first += 4) {
         int const left = splits.count - first < 4 ? splits.count - first : 4;
@@ -318,7 +321,7 @@ template <class T, class Visit>
 
 // in_light[i]: the box along the axes of the light (x, y, depth; metres from the world's origin) around what slice i
 // sees of the scene; empty where that is nothing. Every point of both is inside, and none of it is farther out than
-// what 64 epsilon of the view's reach and of its place, in metres, may add to slice and scene. Writes splits.count
+// what 256 epsilon of the view's reach and of its place, in metres, may add to slice and scene. Writes splits.count
 // boxes, all empty where a number is not finite, a side is crossed or something lies beyond 1e12 m.
 template <class T>
 inline void bound_slices(ViewVolume<T> const& view, LightBasis<T> const& basis, Splits<T> const& splits,
