@@ -20,6 +20,7 @@ test_packages=(
     clang clang-format                                           # the second compiler, the layout of the code
     libclang-rt-14-dev                                           # sanitizers and libFuzzer
     codespell gdb                                                # spelling; the pretty-printers are tried in a debugger
+    valgrind                                                     # counts instructions
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery
 )
@@ -31,7 +32,9 @@ all_packages=(
     gcovr python3                                                # which lines the tests reach; mutants
 )
 
-bench_packages=(g++ cmake ninja-build libglm-dev libbenchmark-dev libembree-dev nlohmann-json3-dev)
+bench_packages=(
+    g++ cmake ninja-build libglm-dev libbenchmark-dev libembree-dev nlohmann-json3-dev
+)
 
 # Installs what is missing of the packages given, or prints the line that does and fails.
 install_packages() {
