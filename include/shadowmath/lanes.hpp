@@ -110,14 +110,6 @@ inline void transpose(Lanes<T> (&rows)[4]) noexcept {
     for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
 }
 
-// Whether the numbers that are not negative grow from place to place, as order_of (reach.hpp) has it.
-template <class T>
-[[nodiscard]] inline bool in_order(Lanes<T> const& less, Lanes<T> const& more) noexcept {
-    bool good = true;
-    for (int i = 0; i < 4; ++i) good = good & (order_of(less[i]) < order_of(more[i]));
-    return good;
-}
-
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
 template <class T>
 class BeyondReach {
@@ -151,19 +143,6 @@ inline void transpose(Lanes<float> (&rows)[4]) noexcept {
     rows[3].at = __builtin_shufflevector(c, d, 2, 3, 6, 7);
 }
 #endif
-
-template <>
-[[nodiscard]] inline bool in_order(Lanes<float> const& less, Lanes<float> const& more) noexcept {
-    using Bits [[gnu::vector_size(16)]] = std::int32_t;
-    Bits a, b;
-    std::memcpy(&a, &less, sizeof a);
-    std::memcpy(&b, &more, sizeof b);
-    // -0 becomes 0.
-    auto const good = (a & ~(a == std::numeric_limits<std::int32_t>::min())) < b;
-    std::uint64_t halves[2];
-    std::memcpy(halves, &good, sizeof halves);
-    return (halves[0] & halves[1]) == ~std::uint64_t(0);
-}
 
 template <>
 class BeyondReach<float> {

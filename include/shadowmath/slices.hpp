@@ -99,10 +99,12 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline bool in_range(Splits<T> const& splits) noexcept {
     if (splits.count < 1 || splits.count > max_splits) return false;
     T const* const p = splits.plane;
-    if (splits.count == 4)
-        return (order_of(p[0]) >= order_of(T(0))) & (order_of(p[1]) >= order_of(least_metres<T>)) &
-               (order_of(p[4]) <= order_of(farthest_metres<T>)) &
-               in_order(four_at(p), moved_up(four_at(p), p[4]));
+    if (splits.count == 4) {
+        // NOTE: one by one, as they have just been written; a vector of them would wait for the last.
+        auto const a = order_of(p[0]), b = order_of(p[1]), c = order_of(p[2]), d = order_of(p[3]), e = order_of(p[4]);
+        return (a >= order_of(T(0))) & (b >= order_of(least_metres<T>)) & (a < b) & (b < c) & (c < d) & (d < e) &
+               (e <= order_of(farthest_metres<T>));
+    }
     auto last = order_of(splits.plane[0]);
     bool good = last >= order_of(T(0));
     for (int i = 1; i <= splits.count; ++i) {
