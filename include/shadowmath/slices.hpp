@@ -157,8 +157,9 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
 // Each corner of each slice is inside. `border` is the part of the map's side that is kept free on each of the four
 // sides, for filters: 2.0f / 2048 for two texels; [0, 0.49]. Writes splits.count matrices and says true; or nowhere()
 // and false, where a number is not finite or beyond 2^60 m, a side is crossed, or the border outside its range.
+// NOTE: inlined, as what it is given has mostly just been made.
 template <class T>
-[[nodiscard]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
+[[nodiscard, gnu::always_inline]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                           Splits<T> const& splits, T border, ClipSpace clip,
                                           Mat4<T>* clip_from_world) noexcept {
     using Lanes = detail::Lanes<T>;
