@@ -82,9 +82,8 @@ void textbooks(benchmark::State& state, Map const& map) {
 // 14 bytes read and 14 written a vertex: as many as 12 and 16.
 void copy(benchmark::State& state) {
     std::vector<char> const source(static_cast<std::size_t>(state.range(0)) * 14, 1);
-    with_vertices(state, [&](Vertices& all) {
-        std::memcpy(static_cast<void*>(all.clip.data()), source.data(), source.size());
-    });
+    with_vertices(
+        state, [&](Vertices& all) { std::memcpy(static_cast<void*>(all.clip.data()), source.data(), source.size()); });
 }
 
 }  // namespace

@@ -269,8 +269,8 @@ struct MaskBlock {
             T const hi = more(more(boxes.hi_x[i], boxes.hi_y[i]), boxes.hi_z[i]);
             T const largest = more(hi, -lo);
             // NOTE: an end that is not a number is in no order, so that `largest` need not know it.
-            bool const full = (boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) &
-                              (boxes.lo_z[i] <= boxes.hi_z[i]);
+            bool const full =
+                (boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]);
             any_odd |= full ? 0u : ~0u;
             beyond |= beyond_reach(largest);
             grown[i] = reach_slack<T> * largest;

@@ -82,12 +82,22 @@ struct Lanes<float> {
         return {a.at <= b.at ? then.at : otherwise.at};
     }
 #if SHADOWMATH_NAMES_SSE
-    friend Lanes least(Lanes const& a, Lanes const& b) noexcept { return {__builtin_ia32_minps(a.at, b.at)}; }
-    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept { return {__builtin_ia32_maxps(a.at, b.at)}; }
-    friend Lanes root(Lanes const& a) noexcept { return {__builtin_ia32_sqrtps(a.at)}; }
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        return {__builtin_ia32_minps(a.at, b.at)};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        return {__builtin_ia32_maxps(a.at, b.at)};
+    }
+    friend Lanes root(Lanes const& a) noexcept {
+        return {__builtin_ia32_sqrtps(a.at)};
+    }
 #else
-    friend Lanes least(Lanes const& a, Lanes const& b) noexcept { return {a.at < b.at ? a.at : b.at}; }
-    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept { return {a.at > b.at ? a.at : b.at}; }
+    friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
+        return {a.at < b.at ? a.at : b.at};
+    }
+    friend Lanes largest(Lanes const& a, Lanes const& b) noexcept {
+        return {a.at > b.at ? a.at : b.at};
+    }
     friend Lanes root(Lanes const& a) noexcept {
         return of(std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3]));
     }

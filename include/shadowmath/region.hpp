@@ -226,7 +226,8 @@ struct BoundsOfBoxes {
     // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
     enum class Kind { all_full, some_empty, beyond_reach };
 
-    [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at, std::uint32_t (&taken)[bodies_at_once]) noexcept {
+    [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at,
+                                               std::uint32_t (&taken)[bodies_at_once]) noexcept {
         decltype(beyond_reach(T(0))) beyond = 0;
         std::uint32_t all_taken = ~0u;
         for (int i = 0; i < n; ++i)

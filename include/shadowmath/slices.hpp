@@ -53,7 +53,8 @@ template <class T>
 // False, and `seen` not written, where a number is not finite or beyond 2^60 m, or a side is crossed.
 // NOTE: not inlined, it would hand over its twelve registers by way of memory.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view, ViewInLight<T>& seen) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
+                                                   ViewInLight<T>& seen) noexcept {
     static_assert(sizeof view.pose == 12 * sizeof(T), "numbers without a gap");
     seen.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
     seen.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
@@ -119,7 +120,8 @@ template <class T>
 template <class T>
 [[nodiscard]] inline bool ball_in_reach(ViewVolume<T> const& view, T farthest) noexcept {
     auto const more = [](T a, T b) { return a > b ? a : b; };
-    T const side = more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
+    T const side =
+        more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
     return view.kind == ViewKind::orthographic || (side <= T(1e9) && side * farthest <= farthest_metres<T>);
 }
 
@@ -160,11 +162,13 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
 // NOTE: inlined, as what it is given has mostly just been made.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
-                                          Splits<T> const& splits, T border, ClipSpace clip,
-                                          Mat4<T>* clip_from_world) noexcept {
+                                                              Splits<T> const& splits, T border, ClipSpace clip,
+                                                              Mat4<T>* clip_from_world) noexcept {
     using Lanes = detail::Lanes<T>;
     detail::ViewInLight<T> seen;
-    if (!detail::look(basis, view, seen) || !detail::in_range(splits) || !(detail::order_of(border) >= detail::order_of(T(0)) && detail::order_of(border) <= detail::order_of(T(0.49)))) {
+    if (!detail::look(basis, view, seen) || !detail::in_range(splits) ||
+        !(detail::order_of(border) >= detail::order_of(T(0)) &&
+          detail::order_of(border) <= detail::order_of(T(0.49)))) {
         for (int i = 0; i < splits.count; ++i) clip_from_world[i] = nowhere<T>();
         return false;
     }
@@ -193,14 +197,15 @@ struct SphereMaps {
     ViewInLight<T> seen;
     MapInLanes<T> map;
     T texel_per_radius;
-    int size;  // texels along a map's side
+    int size;      // texels along a map's side
     Exact eye[2];  // across the light, metres
 
     // The window around the centre of a ball at these coordinates; false where its texels cannot be counted. Depth is
     // scaled by `along`, and moved by `offset`.
     [[nodiscard, gnu::always_inline]] bool write(Exact x, Exact y, T texel, T along, T offset,
                                                  Mat4<T>& clip_from_world) const noexcept {
-        Exact const per_side = 2 / Exact(size), texels = 1 / Exact(texel), middle = Exact(0.5) - Exact(size) * Exact(0.5);
+        Exact const per_side = 2 / Exact(size), texels = 1 / Exact(texel),
+                    middle = Exact(0.5) - Exact(size) * Exact(0.5);
         Exact const left = x * texels + middle, bottom = y * texels + middle;
         if (!(std::abs(left) < Exact(0x1p51) && std::abs(bottom) < Exact(0x1p51)) || !(texel >= least_metres<T>))
             return false;
@@ -230,8 +235,8 @@ template <class T>
     T const per_radius = maps.texel_per_radius, nearest = splits.plane[1] * per_radius;
     T const ahead_x = maps.seen.forward[0], ahead_y = maps.seen.forward[1];
     Exact const eye_x = maps.eye[0], eye_y = maps.eye[1];
-    T const farthest = T(std::abs(eye_x)) + T(std::abs(eye_y)) +
-                       (std::abs(ahead_x) + std::abs(ahead_y)) * splits.plane[splits.count];
+    T const farthest =
+        T(std::abs(eye_x)) + T(std::abs(eye_y)) + (std::abs(ahead_x) + std::abs(ahead_y)) * splits.plane[splits.count];
     // No texel is finer than that of a ball of the first far face. 2^28 of them, and they no longer count in 32 bits.
     T const finest2 = k2 * nearest * nearest;
     if (!(finest2 >= T(1e-30)) || !(farthest * farthest < T(0x1p56) * finest2) || maps.size > (1 << 28)) return false;

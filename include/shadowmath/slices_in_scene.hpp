@@ -165,10 +165,9 @@ template <class T>
 // metre along the other two axes and this one is along the view's (right, up, forward) and along the light's.
 template <class T>
 [[gnu::always_inline]] inline void bound_box_edges(ViewOfBox<T> const& seen, Lanes<T> const (&begin)[4],
-                                                   Lanes<T> const (&end)[4],
-                                                   Vec3<T> const (&in_view)[3], Vec3<T> const (&in_light)[3], T low,
-                                                   T high, Lanes<T> const& at_u, Lanes<T> const& at_v,
-                                                   FourExtents<T>& extent) noexcept {
+                                                   Lanes<T> const (&end)[4], Vec3<T> const (&in_view)[3],
+                                                   Vec3<T> const (&in_light)[3], T low, T high, Lanes<T> const& at_u,
+                                                   Lanes<T> const& at_v, FourExtents<T>& extent) noexcept {
     auto const all = [](T value) { return all_four(value); };
     FourVectors<T> const corner = times(at_u, in_view[1]) + times(at_v, in_view[2]) + times(all(low), in_view[0]);
     Vec3<T> const& grow = in_view[0];
@@ -228,7 +227,8 @@ template <class T>
     // Sides of the split planes, from corner to corner: right, up, left, down. Planes are where they are: the box that
     // these edges are cut by is larger.
     Lanes const sideways = Lanes::of(T(1), T(0), T(-1), T(0)), upward = Lanes::of(T(0), T(1), T(0), T(-1));
-    Vectors const side = times(sideways, right) + times(upward, up), side_lit = times(sideways, right_lit) + times(upward, up_lit);
+    Vectors const side = times(sideways, right) + times(upward, up),
+                  side_lit = times(sideways, right_lit) + times(upward, up_lit);
     Lanes const one = all(T(1));
     Vectors const per_side = {one / not_zero(side.x), one / not_zero(side.y), one / not_zero(side.z)};
     T const wider = seen.slope[1] - seen.slope[0], taller = seen.slope[3] - seen.slope[2];
@@ -326,11 +326,11 @@ template <class T, class Visit>
 template <class T>
 inline void bound_slices(ViewVolume<T> const& view, LightBasis<T> const& basis, Splits<T> const& splits,
                          Aabb<T> const& scene, Aabb<T>* in_light) noexcept {
-    bool const seen = detail::visit_slices_in_scene(view, basis, splits, scene, [&](int first, int count, auto& lo,
-                                                                                    auto& hi) {
-        for (int i = 0; i < count; ++i)
-            in_light[first + i] = {Vec3<T>(lo.x[i], lo.y[i], lo.z[i]), Vec3<T>(hi.x[i], hi.y[i], hi.z[i])};
-    });
+    bool const seen =
+        detail::visit_slices_in_scene(view, basis, splits, scene, [&](int first, int count, auto& lo, auto& hi) {
+            for (int i = 0; i < count; ++i)
+                in_light[first + i] = {Vec3<T>(lo.x[i], lo.y[i], lo.z[i]), Vec3<T>(hi.x[i], hi.y[i], hi.z[i])};
+        });
     for (int i = 0; i < splits.count && !seen; ++i) in_light[i] = {};
 }
 
@@ -341,8 +341,8 @@ template <class T>
                                                    Splits<T> const& splits, Aabb<T> const& scene, T border,
                                                    ClipSpace clip, Mat4<T>* clip_from_world) noexcept {
     using Lanes = detail::Lanes<T>;
-    bool const free = detail::order_of(border) >= detail::order_of(T(0)) &&
-                      detail::order_of(border) <= detail::order_of(T(0.49));
+    bool const free =
+        detail::order_of(border) >= detail::order_of(T(0)) && detail::order_of(border) <= detail::order_of(T(0.49));
     detail::MapInLanes<T> const map = detail::map_in_lanes(clip, free ? T(2) - T(4) * border : T(2));
     detail::ViewInLight<T> columns;
     columns.x = Lanes::of(basis.x.x, basis.y.x, basis.depth.x, T(0));

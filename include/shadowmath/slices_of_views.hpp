@@ -111,8 +111,8 @@ struct SlicesOfViews {
             plane[2][i] = lambda * (near_end * half[i]) + rest * (near_end + length * T(0.5));
             plane[3][i] = lambda * (near_end * (half[i] * quarter[i])) + rest * (near_end + length * T(0.75));
             plane[4][i] = far_end;
-            slope[i] = unit * (T(1) + (std::abs(in[12][i]) + std::abs(in[13][i]) + std::abs(in[14][i]) +
-                                       std::abs(in[15][i])));
+            slope[i] =
+                unit * (T(1) + (std::abs(in[12][i]) + std::abs(in[13][i]) + std::abs(in[14][i]) + std::abs(in[15][i])));
         }
         for (int i = 0; i < n; ++i)
             good[i] = ((plane[0][i] < plane[1][i]) & (plane[1][i] < plane[2][i]) & (plane[2][i] < plane[3][i]) &

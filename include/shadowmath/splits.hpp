@@ -152,7 +152,7 @@ template <class T>
 // 2^-20 of z_far (near_clamped).
 template <class T>
 [[nodiscard, gnu::always_inline]] inline Splits<T> practical_splits(T z_near, T z_far, int count,
-                                                                   T lambda = T(0.5)) noexcept {
+                                                                    T lambda = T(0.5)) noexcept {
     // NOTE: one object and one return, or it is copied before it has left the store buffer.
     Splits<T> splits;
     if (count == 4 && detail::four_practical_splits(z_near, z_far, lambda, splits.plane))

@@ -14,7 +14,8 @@ skip() {
     exit 77
 }
 command -v valgrind > /dev/null || skip 'valgrind is not installed'
-grep -qw avx2 /proc/cpuinfo 2> /dev/null || skip 'the counts were taken on a processor with AVX2, which this one has not'
+grep -qw avx2 /proc/cpuinfo 2> /dev/null ||
+    skip 'the counts were taken on a processor with AVX2, which this one has not'
 
 count_of() { # FUNCTION
     valgrind --tool=callgrind --toggle-collect="$1" --callgrind-out-file=/dev/null "$program" 2>&1 |

@@ -78,7 +78,8 @@ int main() {
         add_map(casters, ShadowMap<float>{matrix, gl_zero_to_one_clip, 0, true, {}});
     perspective = clip_from_world(view, gl_zero_to_one_clip);
     affine = cascades[3];
-    for (glm::vec3& point : points) point = {random.between(-100, 100), random.between(0, 20), random.between(-100, 100)};
+    for (glm::vec3& point : points)
+        point = {random.between(-100, 100), random.between(0, 20), random.between(-100, 100)};
 
     count_practical_splits();
     count_slice_boxes();

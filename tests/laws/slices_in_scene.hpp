@@ -16,7 +16,7 @@ namespace shadowmath::laws {
 
 // Metres that planes may be off by: 256 epsilon of what the view reaches and of where it is. Planes are moved outward by
 // 16, those that lean by 23; the edges of the box are up to four reaches long, and where one ends is known to some ten
-// roundings of that length, each of up to half an epsilon, times as much again for the slope of a side.
+// roundings of that length, each of half an epsilon, and as much again for the slope of a side.
 template <class T>
 [[nodiscard]] long double scene_rounding(ViewVolume<T> const& view, T farthest) {
     long double const sides = std::abs(static_cast<long double>(view.left)) + std::abs(view.right) +
@@ -41,9 +41,8 @@ template <class T>
     LightBasis<Real> const axes{Vec3<Real>(basis.x), Vec3<Real>(basis.y), Vec3<Real>(basis.depth)};
     Aabb<Real> const box{Vec3<Real>(scene.lo), Vec3<Real>(scene.hi)};
     Aabb<Real> bounds;
-    for_each_vertex(visible_body(exact, box, slack), [&](Vec3<Real> const& v) {
-        bounds = merge(bounds, in_light(axes, v + exact.pose.position));
-    });
+    for_each_vertex(visible_body(exact, box, slack),
+                    [&](Vec3<Real> const& v) { bounds = merge(bounds, in_light(axes, v + exact.pose.position)); });
     return bounds;
 }
 

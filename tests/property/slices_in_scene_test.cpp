@@ -33,8 +33,8 @@ SceneCase<T> some_scene() {
     auto const count = static_cast<int>(1 + *below(6));
     drawn.splits = practical_splits(drawn.view.z_near, drawn.view.z_far, count);
     T const reach = drawn.view.z_far;
-    Vec3<T> const share = *point_within<T>(T(1)), size(*uniform<T>(T(0), T(1)), *uniform<T>(T(0), T(1)),
-                                                       *uniform<T>(T(0), T(1)));
+    Vec3<T> const share = *point_within<T>(T(1)),
+                  size(*uniform<T>(T(0), T(1)), *uniform<T>(T(0), T(1)), *uniform<T>(T(0), T(1)));
     Vec3<T> const centre = drawn.view.pose.position + (drawn.view.pose.forward + share) * (reach * T(0.5));
     drawn.scene = {centre - size * (reach * T(0.5)), centre + size * (reach * T(0.5))};
     return drawn;
@@ -49,8 +49,7 @@ TYPED_TEST(SlicesInSceneProperty, BoundsAreThoseOfClippedPolygonsAndNeverLess) {
         SceneCase<T> const drawn = some_scene<T>();
         Aabb<T> bounds[max_splits];
         bound_slices(drawn.view, drawn.basis, drawn.splits, drawn.scene, bounds);
-        long double const rounding =
-            laws::scene_rounding(drawn.view, drawn.splits.plane[drawn.splits.count]);
+        long double const rounding = laws::scene_rounding(drawn.view, drawn.splits.plane[drawn.splits.count]);
         for (int i = 0; i < drawn.splits.count; ++i) {
             ViewVolume<T> const part = slice(drawn.view, slice_range(drawn.splits, i));
             Aabb<long double> const exact = laws::clipped_bounds(part, drawn.basis, drawn.scene, 0.0L);
@@ -74,7 +73,8 @@ TYPED_TEST(SlicesInSceneProperty, MapsHoldWhatTheySeeOfTheScene) {
         Aabb<T> bounds[max_splits];
         bound_slices(drawn.view, drawn.basis, drawn.splits, drawn.scene, bounds);
         Mat4<T> maps[max_splits];
-        unsigned const visible = fit_slice_focus(drawn.view, drawn.basis, drawn.splits, drawn.scene, border, clip, maps);
+        unsigned const visible =
+            fit_slice_focus(drawn.view, drawn.basis, drawn.splits, drawn.scene, border, clip, maps);
         for (int i = 0; i < drawn.splits.count; ++i) {
             RC_ASSERT((visible >> i & 1u) == (is_empty(bounds[i]) ? 0u : 1u));
             if ((visible >> i & 1u) == 0) {
