@@ -14,9 +14,9 @@
 
 namespace shadowmath::laws {
 
-// Metres that planes may be off by: 256 epsilon of what the view reaches and of where it is. Planes are moved outward by
-// 16, those that lean by 23; the edges of the box are up to four reaches long, and where one ends is known to some ten
-// roundings of that length, each of half an epsilon, and as much again for the slope of a side.
+// Metres that planes may be off by: 256 epsilon of what the view reaches and of where it is. Planes are moved outward
+// by 16, those that lean by 23; the edges of the box are up to four reaches long, and where one ends is known to some
+// ten roundings of that length, each of half an epsilon, and as much again for the slope of a side.
 template <class T>
 [[nodiscard]] long double scene_rounding(ViewVolume<T> const& view, T farthest) {
     long double const sides = std::abs(static_cast<long double>(view.left)) + std::abs(view.right) +
