@@ -50,7 +50,7 @@ template <class T>
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// False, and `seen` not written, where a number is not finite or beyond 2^60 m, or a side is crossed.
+// False, where a number is not finite or beyond 2^60 m, a side is crossed, or an axis of the light is no unit vector.
 // NOTE: not inlined, it would hand over its twelve registers by way of memory.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
@@ -62,9 +62,9 @@ template <class T>
     BeyondReach<T> beyond;
     for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
     beyond.look_at(four_at(&view.left));
-    beyond.look_at(seen.x);
-    beyond.look_at(seen.y);
-    beyond.look_at(seen.z);
+    beyond.look_at_parts(seen.x);
+    beyond.look_at_parts(seen.y);
+    beyond.look_at_parts(seen.z);
     if (beyond.any() || !(view.left < view.right) || !(view.bottom < view.top)) return false;
     auto const along = [&seen](Vec3<T> const& v) {
         return seen.x * all_four(v.x) + seen.y * all_four(v.y) + seen.z * all_four(v.z);
