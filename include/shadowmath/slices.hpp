@@ -100,20 +100,21 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline bool in_range(Splits<T> const& splits) noexcept {
     if (splits.count < 1 || splits.count > max_splits) return false;
     T const* const p = splits.plane;
+    auto const zero = order_of(T(0)), nearest = order_of(least_metres<T>), farthest = order_of(farthest_metres<T>);
     if (splits.count == 4) {
         // NOTE: one by one, as they have just been written; a vector of them would wait for the last.
         auto const a = order_of(p[0]), b = order_of(p[1]), c = order_of(p[2]), d = order_of(p[3]), e = order_of(p[4]);
-        return (a >= order_of(T(0))) & (b >= order_of(least_metres<T>)) & (a < b) & (b < c) & (c < d) & (d < e) &
-               (e <= order_of(farthest_metres<T>));
+        return (a >= zero) & (b >= nearest) & (a < b) & (b < c) & (c < d) & (d < e) & (e <= farthest);
     }
     auto last = order_of(splits.plane[0]);
-    bool good = last >= order_of(T(0));
+    bool good = last >= zero;
     for (int i = 1; i <= splits.count; ++i) {
         auto const next = order_of(splits.plane[i]);
         good = good & (last < next);
         last = next;
     }
-    return good & (order_of(splits.plane[1]) >= order_of(least_metres<T>)) & (last <= order_of(farthest_metres<T>));
+    auto const first_end = order_of(p[1]);
+    return good & (first_end >= nearest) & (last <= farthest);
 }
 
 // As bounding_sphere asks of a slice.

@@ -121,10 +121,10 @@ template <class T>
     constexpr T most = T(1e12);
     auto const bound = order_of(most);
     auto const size = [](T value) { return order_of(std::abs(value)); };
-    bool good = order_of(farthest) <= bound;
     T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
     Vec3<T> const& eye = view.pose.position;
-    good = good & (size(sides) <= bound) & (size(eye.x) <= bound) & (size(eye.y) <= bound) & (size(eye.z) <= bound);
+    auto const far_end = order_of(farthest), widest = size(sides), x = size(eye.x), y = size(eye.y), z = size(eye.z);
+    bool const good = (far_end <= bound) & (widest <= bound) & (x <= bound) & (y <= bound) & (z <= bound);
     if (!good || !all_finite(scene) || is_empty(scene)) return false;
     T const axes = absolute_sum(view.pose.right) + absolute_sum(view.pose.up) + absolute_sum(view.pose.forward) +
                    absolute_sum(basis.x) + absolute_sum(basis.y) + absolute_sum(basis.depth);
