@@ -86,6 +86,45 @@ void spheres_textbook(benchmark::State& state) {
     });
 }
 
+// A walled town around all cameras, which ends before their views do.
+Aabb<float> const town{glm::vec3(-120, 0, -120), glm::vec3(120, 30, 120)};
+
+void focus(benchmark::State& state) {
+    with_views(state, [](ViewVolume<float> const& view, glm::mat4* maps) {
+        Splits<float> const splits = practical_splits(view.z_near, view.z_far, 4);
+        std::uint32_t const seen =
+            fit_slice_focus(view, light_basis(bench::sun), splits, town, 2.0f / 2048, gl_zero_to_one_clip, maps);
+        benchmark::DoNotOptimize(seen);
+    });
+}
+
+// Polygons clipped in double (polytope.hpp), slice by slice, and the box around what is left along the light's axes.
+void focus_polygons(benchmark::State& state) {
+    Aabb<double> const box{glm::dvec3(town.lo), glm::dvec3(town.hi)};
+    std::vector<ViewVolume<double>> views;
+    for (textbook::Camera const& camera : cameras())
+        views.push_back(perspective_view(
+            pose_looking(glm::dvec3(camera.position), glm::dvec3(camera.forward), glm::dvec3(camera.up)),
+            double(camera.fov_y), double(camera.aspect), double(camera.z_near), double(camera.z_far)));
+    std::size_t k = 0;
+    for (auto _ : state) {
+        ViewVolume<double> const& view = views[k++ % view_count];
+        Splits<double> const splits = practical_splits(view.z_near, view.z_far, 4);
+        LightBasis<double> const basis = light_basis(glm::dvec3(bench::sun));
+        glm::dmat4 maps[4];
+        for (int i = 0; i < 4; ++i) {
+            ViewVolume<double> const part = slice(view, slice_range(splits, i));
+            Aabb<double> bounds;
+            for_each_vertex(visible_body(part, box), [&](glm::dvec3 const& v) {
+                bounds = merge(bounds, in_light(basis, v + part.pose.position));
+            });
+            if (is_empty(bounds)) continue;
+            maps[i] = clip_from_world(box_around(basis, bounds, 2048, 2.0), gl_zero_to_one_clip);
+        }
+        benchmark::DoNotOptimize(maps);
+    }
+}
+
 // The one call, which also bounds each map's depth by a scene and checks everything.
 template <CascadeFit fit>
 void one_call(benchmark::State& state) {
@@ -105,11 +144,9 @@ void many_boxes(benchmark::State& state) {
     std::vector<glm::mat4> maps(4 * views.size());
     LightBasis<float> const basis = light_basis(bench::sun);
     for (auto _ : state) {
-        for (std::size_t i = 0; i < views.size(); ++i) {
-            Splits<float> const splits = practical_splits(views[i].z_near, views[i].z_far, 4);
-            bool const fitted = fit_slice_boxes(views[i], basis, splits, 0.0f, gl_zero_to_one_clip, &maps[4 * i]);
-            benchmark::DoNotOptimize(fitted);
-        }
+        int const fitted = fit_slice_boxes_of(views.data(), static_cast<int>(views.size()), basis, 4, 0.5f, 0.0f,
+                                              gl_zero_to_one_clip, maps.data());
+        benchmark::DoNotOptimize(fitted);
         benchmark::ClobberMemory();
     }
 }
@@ -130,6 +167,8 @@ void many_boxes_textbook(benchmark::State& state) {
 BENCHMARK(spheres)->Name("slice_spheres/ours");
 BENCHMARK(spheres_bound)->Name("slice_spheres/bound");
 BENCHMARK(spheres_textbook)->Name("slice_spheres/textbook");
+BENCHMARK(focus)->Name("slice_focus/ours");
+BENCHMARK(focus_polygons)->Name("slice_focus/polygons");
 BENCHMARK(one_call<CascadeFit::tight>)->Name("fit_cascades_tight/ours");
 BENCHMARK(boxes_textbook)->Name("fit_cascades_tight/textbook");
 BENCHMARK(one_call<CascadeFit::stable>)->Name("fit_cascades_stable/ours");

@@ -21,6 +21,7 @@ test_packages=(
     clang clang-format                                           # the second compiler, the layout of the code
     libclang-rt-14-dev                                           # sanitizers and libFuzzer
     codespell gdb                                                # spelling; the pretty-printers are tried in a debugger
+    valgrind                                                     # counts instructions
     pkg-config                                                   # one of the ways to find an installed shadowmath
     chromium                                                     # opens the gallery
     doxygen                                                      # the reference has no warnings

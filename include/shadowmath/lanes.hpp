@@ -49,6 +49,12 @@ struct Lanes {
         auto const less = [](T x, T y) { return x < y ? x : y; };
         return {{less(a.at[0], b.at[0]), less(a.at[1], b.at[1]), less(a.at[2], b.at[2]), less(a.at[3], b.at[3])}};
     }
+    // Place by place, a <= b ? then : otherwise.
+    friend Lanes where_at_most(Lanes const& a, Lanes const& b, Lanes const& then, Lanes const& otherwise) noexcept {
+        Lanes chosen;
+        for (int i = 0; i < 4; ++i) chosen.at[i] = a.at[i] <= b.at[i] ? then.at[i] : otherwise.at[i];
+        return chosen;
+    }
     friend Lanes root(Lanes const& a) noexcept {
         return {{std::sqrt(a.at[0]), std::sqrt(a.at[1]), std::sqrt(a.at[2]), std::sqrt(a.at[3])}};
     }
@@ -72,6 +78,9 @@ struct Lanes<float> {
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
     friend Lanes operator/(Lanes const& a, Lanes const& b) noexcept { return {a.at / b.at}; }
+    friend Lanes where_at_most(Lanes const& a, Lanes const& b, Lanes const& then, Lanes const& otherwise) noexcept {
+        return {a.at <= b.at ? then.at : otherwise.at};
+    }
 #if SHADOWMATH_NAMES_SSE
     friend Lanes least(Lanes const& a, Lanes const& b) noexcept {
         return {__builtin_ia32_minps(a.at, b.at)};
@@ -111,14 +120,6 @@ inline void transpose(Lanes<T> (&rows)[4]) noexcept {
     for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
 }
 
-// Whether the numbers that are not negative grow from place to place, as order_of (reach.hpp) has it.
-template <class T>
-[[nodiscard]] inline bool in_order(Lanes<T> const& less, Lanes<T> const& more) noexcept {
-    bool good = true;
-    for (int i = 0; i < 4; ++i) good = good & (order_of(less[i]) < order_of(more[i]));
-    return good;
-}
-
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
 template <class T>
 class BeyondReach {
@@ -126,9 +127,12 @@ public:
     void look_at(Lanes<T> const& four) noexcept {
         for (int i = 0; i < 4; ++i) beyond_ |= beyond_reach(std::abs(four[i]));
     }
+    // Parts of unit vectors: 4 and more is beyond.
+    void look_at_parts(Lanes<T> const& four) noexcept { look_at(four * Lanes<T>::of(big, big, big, big)); }
     [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
 
 private:
+    static constexpr T big = T(0x1p58);
     decltype(beyond_reach(T(0))) beyond_ = 0;
 };
 
@@ -154,25 +158,17 @@ inline void transpose(Lanes<float> (&rows)[4]) noexcept {
 #endif
 
 template <>
-[[nodiscard]] inline bool in_order(Lanes<float> const& less, Lanes<float> const& more) noexcept {
-    using Bits [[gnu::vector_size(16)]] = std::int32_t;
-    Bits a, b;
-    std::memcpy(&a, &less, sizeof a);
-    std::memcpy(&b, &more, sizeof b);
-    // -0 becomes 0.
-    auto const good = (a & ~(a == std::numeric_limits<std::int32_t>::min())) < b;
-    std::uint64_t halves[2];
-    std::memcpy(halves, &good, sizeof halves);
-    return (halves[0] & halves[1]) == ~std::uint64_t(0);
-}
-
-template <>
 class BeyondReach<float> {
 public:
     void look_at(Lanes<float> const& four) noexcept {
         Bits bits;
         std::memcpy(&bits, &four, sizeof bits);
         beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x5d800000u);
+    }
+    void look_at_parts(Lanes<float> const& four) noexcept {
+        Bits bits;
+        std::memcpy(&bits, &four, sizeof bits);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40800000u);
     }
     [[nodiscard]] bool any() const noexcept {
         std::uint64_t halves[2];

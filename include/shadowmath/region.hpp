@@ -223,42 +223,65 @@ struct BoundsOfBoxes {
 
     static constexpr int n = bodies_at_once;
 
-    [[gnu::always_inline]] static bool in_reach(BoxArrays<T> const& at) noexcept {
+    // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
+    enum class Kind { all_full, some_empty, beyond_reach };
+
+    [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at,
+                                               std::uint32_t (&taken)[bodies_at_once]) noexcept {
         decltype(beyond_reach(T(0))) beyond = 0;
+        std::uint32_t all_taken = ~0u;
         for (int i = 0; i < n; ++i)
             beyond |= beyond_reach(std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) +
                                    std::abs(at.hi_y[i]) + std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]));
-        return beyond >> (8 * sizeof beyond - 1) == 0;
+        if (beyond >> (8 * sizeof beyond - 1) != 0) return Kind::beyond_reach;
+        for (int i = 0; i < n; ++i) {
+            taken[i] = full(at, i) ? ~0u : 0u;
+            all_taken &= taken[i];
+        }
+        return all_taken != 0 ? Kind::all_full : Kind::some_empty;
     }
     [[gnu::always_inline]] static bool full(BoxArrays<T> const& at, int i) noexcept {
         return (at.lo_x[i] <= at.hi_x[i]) & (at.lo_y[i] <= at.hi_y[i]) & (at.lo_z[i] <= at.hi_z[i]);
     }
 
-    // w is the same everywhere: one quotient at the end serves all.
+    // w is the same everywhere: one quotient at the end serves all. So is what a row adds to every box. Which end of a
+    // box goes farther along a row is a matter of the row's signs.
     [[gnu::always_inline]] void affine() const noexcept {
         BoundsInBlocks<T> so_far;
-        T least[bodies_at_once], most[bodies_at_once];
         std::uint32_t taken[bodies_at_once];
+        T least[bodies_at_once], most[bodies_at_once];
         for (int block = 0; block < blocks; ++block) {
             BoxArrays<T> const at = boxes_from(boxes, block * n);
-            if (!in_reach(at)) {
-                one_by_one(at, nullptr);
+            Kind const kind = kind_of(at, taken);
+            if (kind == Kind::beyond_reach) {
+                one_by_one(at);
                 continue;
             }
-            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
             for (int r = 0; r < 3; ++r) {
-                Vec4<T> const above = row(matrix, r);
+                Vec3<T> const above(row(matrix, r));
+                T const *const x0 = above.x > T(0) ? at.lo_x : at.hi_x, *const x1 = above.x > T(0) ? at.hi_x : at.lo_x;
+                T const *const y0 = above.y > T(0) ? at.lo_y : at.hi_y, *const y1 = above.y > T(0) ? at.hi_y : at.lo_y;
+                T const *const z0 = above.z > T(0) ? at.lo_z : at.hi_z, *const z1 = above.z > T(0) ? at.hi_z : at.lo_z;
+                T(&lo)[bodies_at_once] = so_far.lo[r], (&hi)[bodies_at_once] = so_far.hi[r];
+                if (kind == Kind::all_full) {
+                    for (int i = 0; i < n; ++i) {
+                        lo[i] = so_far.less(lo[i], above.x * x0[i] + above.y * y0[i] + above.z * z0[i]);
+                        hi[i] = so_far.more(hi[i], above.x * x1[i] + above.y * y1[i] + above.z * z1[i]);
+                    }
+                    continue;
+                }
                 for (int i = 0; i < n; ++i) {
-                    EndProducts<T> const p(above, at, i);
-                    least[i] = p.least();
-                    most[i] = p.most();
+                    least[i] = above.x * x0[i] + above.y * y0[i] + above.z * z0[i];
+                    most[i] = above.x * x1[i] + above.y * y1[i] + above.z * z1[i];
                 }
                 // NOTE: in the loop above, this would become a branch.
                 for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i], least[i], most[i]);
             }
         }
         Aabb<T> const merged = so_far.merged();
-        if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{merged.lo / matrix[3][3], merged.hi / matrix[3][3]});
+        Vec3<T> const offset(matrix[3]);
+        if (!is_empty(merged))
+            bounds = merge(bounds, Aabb<T>{(merged.lo + offset) / matrix[3][3], (merged.hi + offset) / matrix[3][3]});
     }
 
     [[gnu::always_inline]] void perspective() const noexcept {
@@ -267,13 +290,12 @@ struct BoundsOfBoxes {
         std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
         for (int block = 0; block < blocks; ++block) {
             BoxArrays<T> const at = boxes_from(boxes, block * n);
-            if (!in_reach(at)) {
-                one_by_one(at, nullptr);
+            if (kind_of(at, taken) == Kind::beyond_reach) {
+                one_by_one(at);
                 continue;
             }
             std::uint32_t any_astride = 0;
             Vec4<T> const below = row(matrix, 3);
-            for (int i = 0; i < n; ++i) taken[i] = full(at, i) ? ~0u : 0u;
             for (int i = 0; i < n; ++i) {
                 EndProducts<T> const w(below, at, i);
                 T const least = w.least(), most = w.most();
@@ -303,15 +325,52 @@ struct BoundsOfBoxes {
                     so_far.add(r, i, taken[i], least, most);
                 }
             }
-            if (any_astride != 0) one_by_one(at, astride);
+            if (any_astride != 0)
+                for (int i = 0; i < n; ++i)
+                    if (astride[i] != 0) add_astride(at, i);
         }
         bounds = merge(bounds, so_far.merged());
     }
 
-    // `wanted`: null for all.
-    void one_by_one(BoxArrays<T> const& at, std::uint32_t const* wanted) const noexcept {
+    // A box in reach that is partly at w < w_min: its corners in front of that, and where its edges pass through it.
+    void add_astride(BoxArrays<T> const& at, int i) const noexcept {
+        T corner[4][8], above[8];
+        for (int r = 0; r < 4; ++r) {
+            EndProducts<T> const p(row(matrix, r), at, i);
+            T const xy[4] = {p.x0 + p.y0, p.x1 + p.y0, p.x0 + p.y1, p.x1 + p.y1};
+            for (int k = 0; k < 4; ++k) corner[r][k] = xy[k] + p.z0, corner[r][k + 4] = xy[k] + p.z1;
+        }
+        constexpr T largest = std::numeric_limits<T>::max();
+        Vec3<T> lo = bounds.lo, hi = bounds.hi;
+        auto const extend = [](T value, T& least, T& most) {
+            T const kept = value < -largest ? -largest : (value > largest ? largest : value);
+            least = kept < least ? kept : least;
+            most = kept > most ? kept : most;
+        };
+        auto const add = [&](T x, T y, T z, T per_w) {
+            extend(x * per_w, lo.x, hi.x);
+            extend(y * per_w, lo.y, hi.y);
+            extend(z * per_w, lo.z, hi.z);
+        };
+        for (int k = 0; k < 8; ++k) {
+            above[k] = corner[3][k] - w_min;
+            if (above[k] >= T(0)) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
+        }
+        T const per_w = T(1) / w_min;
+        for (int bit = 1; bit < 8; bit <<= 1)
+            for (int k = 0; k < 8; ++k) {
+                int const j = k | bit;
+                if (j == k || (above[k] >= T(0)) == (above[j] >= T(0))) continue;
+                T const t = above[k] / (above[k] - above[j]), rest = T(1) - t;
+                add(corner[0][k] * rest + corner[0][j] * t, corner[1][k] * rest + corner[1][j] * t,
+                    corner[2][k] * rest + corner[2][j] * t, per_w);
+            }
+        bounds = {lo, hi};
+    }
+
+    // Whatever they are.
+    void one_by_one(BoxArrays<T> const& at) const noexcept {
         for (int i = 0; i < n; ++i) {
-            if (wanted != nullptr && wanted[i] == 0) continue;
             Aabb<T> const box = box_at(at, i);
             if (all_finite(box) && !is_empty(box))
                 bounds = merge(bounds, projected_bounds(matrix, corners(box), w_min));

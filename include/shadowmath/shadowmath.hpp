@@ -20,6 +20,8 @@
 // Where along the view.
 #include <shadowmath/slice.hpp>
 #include <shadowmath/slices.hpp>
+#include <shadowmath/slices_in_scene.hpp>
+#include <shadowmath/slices_of_views.hpp>
 #include <shadowmath/splits.hpp>
 
 // How to look from the light.

@@ -50,8 +50,7 @@ template <class T>
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// False, and `seen` not written, where a number is not finite or beyond 2^60 m, an axis of the light longer than 2, or
-// a side crossed.
+// False, where a number is not finite or beyond 2^60 m, a side is crossed, or an axis of the light is no unit vector.
 // NOTE: not inlined, it would hand over its twelve registers by way of memory.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
@@ -63,10 +62,9 @@ template <class T>
     BeyondReach<T> beyond;
     for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
     beyond.look_at(four_at(&view.left));
-    // NOTE: with longer axes the rounding that is allowed for would be too little, and a map without extent.
-    beyond.look_at(seen.x * all_four(T(0x1p59)));
-    beyond.look_at(seen.y * all_four(T(0x1p59)));
-    beyond.look_at(seen.z * all_four(T(0x1p59)));
+    beyond.look_at_parts(seen.x);
+    beyond.look_at_parts(seen.y);
+    beyond.look_at_parts(seen.z);
     if (beyond.any() || !(view.left < view.right) || !(view.bottom < view.top)) return false;
     auto const along = [&seen](Vec3<T> const& v) {
         return seen.x * all_four(v.x) + seen.y * all_four(v.y) + seen.z * all_four(v.z);
@@ -102,17 +100,21 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline bool in_range(Splits<T> const& splits) noexcept {
     if (splits.count < 1 || splits.count > max_splits) return false;
     T const* const p = splits.plane;
-    if (splits.count == 4)
-        return (order_of(p[0]) >= order_of(T(0))) & (order_of(p[1]) >= order_of(least_metres<T>)) &
-               (order_of(p[4]) <= order_of(farthest_metres<T>)) & in_order(four_at(p), moved_up(four_at(p), p[4]));
+    auto const zero = order_of(T(0)), nearest = order_of(least_metres<T>), farthest = order_of(farthest_metres<T>);
+    if (splits.count == 4) {
+        // NOTE: one by one, as they have just been written; a vector of them would wait for the last.
+        auto const a = order_of(p[0]), b = order_of(p[1]), c = order_of(p[2]), d = order_of(p[3]), e = order_of(p[4]);
+        return (a >= zero) & (b >= nearest) & (a < b) & (b < c) & (c < d) & (d < e) & (e <= farthest);
+    }
     auto last = order_of(splits.plane[0]);
-    bool good = last >= order_of(T(0));
+    bool good = last >= zero;
     for (int i = 1; i <= splits.count; ++i) {
         auto const next = order_of(splits.plane[i]);
         good = good & (last < next);
         last = next;
     }
-    return good & (order_of(splits.plane[1]) >= order_of(least_metres<T>)) & (last <= order_of(farthest_metres<T>));
+    auto const first_end = order_of(p[1]);
+    return good & (first_end >= nearest) & (last <= farthest);
 }
 
 // As bounding_sphere asks of a slice.
@@ -157,12 +159,13 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
 // clip_from_world[i] is the map of slice i: the smallest light-space box around it, and no depth but the slice's own.
 // Each corner of each slice is inside. `border` is the part of the map's side that is kept free on each of the four
 // sides, for filters: 2.0f / 2048 for two texels; [0, 0.49]. Writes splits.count matrices and says true; or nowhere()
-// and false, where a number is not finite or beyond 2^60 m, an axis is no axis, a side crossed, or the border outside
+// and false, where a number is not finite or beyond 2^60 m, an axis is no axis, a side is crossed, or the border outside
 // its range.
+// NOTE: inlined, as what it is given has mostly just been made.
 template <class T>
-[[nodiscard]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
-                                          Splits<T> const& splits, T border, ClipSpace clip,
-                                          Mat4<T>* clip_from_world) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
+                                                              Splits<T> const& splits, T border, ClipSpace clip,
+                                                              Mat4<T>* clip_from_world) noexcept {
     using Lanes = detail::Lanes<T>;
     detail::ViewInLight<T> seen;
     if (!detail::look(basis, view, seen) || !detail::in_range(splits) ||

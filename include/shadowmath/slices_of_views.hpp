@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The slices of thousands of views at once: what fit_slice_boxes gives for each, a third as dear again. For simulators
+// The slices of thousands of views at once: what fit_slice_boxes gives for each, at a third of the cost. For simulators
 // and for tools that try many cameras under one sun.
 //
 // Eight views are eight lanes: what they have in common is done once for all of them, and each operation is one

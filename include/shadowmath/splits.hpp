@@ -128,9 +128,8 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline bool four_practical_splits(T const& z_near, T const& z_far, T const& lambda,
                                                                     T (&plane)[max_splits + 1]) noexcept {
     auto const n = order_of(z_near), f = order_of(z_far), weight = order_of(lambda);
-    if (!((n > 0) & (n < f) & (f < order_of(std::numeric_limits<T>::infinity())) & (weight > 0) &
-          (weight <= order_of(T(1)))) ||
-        !(z_near > z_far * T(0x1p-64)))
+    auto const endless = order_of(std::numeric_limits<T>::infinity()), one = order_of(T(1));
+    if (!((n > 0) & (n < f) & (f < endless) & (weight > 0) & (weight <= one)) || !(z_near > z_far * T(0x1p-64)))
         return false;
     T const ratio = z_far / z_near, half = std::sqrt(ratio), quarter = std::sqrt(half);
     auto const blended = [&](T fraction, T power) {

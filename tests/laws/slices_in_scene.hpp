@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+//
+// What slices_in_scene.hpp promises: the bounds of what polygon clipping leaves of each slice, and little more.
+#pragma once
+
+#include "tests/laws/slices.hpp"
+
+#include <shadowmath/light.hpp>
+#include <shadowmath/polytope.hpp>
+#include <shadowmath/slices_in_scene.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace shadowmath::laws {
+
+// Metres that planes may be off by: 256 epsilon of what the view reaches and of where it is. Planes are moved outward
+// by 16, those that lean by 23; the edges of the box are up to four reaches long, and where one ends is known to some
+// ten roundings of that length, each of half an epsilon, and as much again for the slope of a side.
+template <class T>
+[[nodiscard]] long double scene_rounding(ViewVolume<T> const& view, T farthest) {
+    long double const sides = std::abs(static_cast<long double>(view.left)) + std::abs(view.right) +
+                              std::abs(view.bottom) + std::abs(view.top);
+    long double const reach = view.kind == ViewKind::orthographic ? farthest + sides : farthest * (1 + sides);
+    Vec3<T> const& eye = view.pose.position;
+    return 256 * static_cast<long double>(std::numeric_limits<T>::epsilon()) *
+           (reach + std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z));
+}
+
+// By clipping polygons in long double, every plane `slack` metres farther out.
+template <class T>
+[[nodiscard]] Aabb<long double> clipped_bounds(ViewVolume<T> const& part, LightBasis<T> const& basis,
+                                               Aabb<T> const& scene, long double slack) {
+    using Real = long double;
+    ViewVolume<Real> exact;
+    exact.pose = {Vec3<Real>(part.pose.position), Vec3<Real>(part.pose.right), Vec3<Real>(part.pose.up),
+                  Vec3<Real>(part.pose.forward)};
+    exact.left = part.left, exact.right = part.right, exact.bottom = part.bottom, exact.top = part.top;
+    exact.z_near = part.z_near, exact.z_far = part.z_far;
+    exact.kind = part.kind;
+    LightBasis<Real> const axes{Vec3<Real>(basis.x), Vec3<Real>(basis.y), Vec3<Real>(basis.depth)};
+    Aabb<Real> const box{Vec3<Real>(scene.lo), Vec3<Real>(scene.hi)};
+    Aabb<Real> bounds;
+    for_each_vertex(visible_body(exact, box, slack),
+                    [&](Vec3<Real> const& v) { bounds = merge(bounds, in_light(axes, v + exact.pose.position)); });
+    return bounds;
+}
+
+template <class T>
+[[nodiscard]] bool holds(Aabb<T> const& outer, Aabb<long double> const& inner, long double slack) {
+    if (is_empty(inner)) return true;
+    if (is_empty(outer)) return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(static_cast<long double>(outer.lo[axis]) - slack <= inner.lo[axis] &&
+              inner.hi[axis] <= static_cast<long double>(outer.hi[axis]) + slack))
+            return false;
+    return true;
+}
+
+}  // namespace shadowmath::laws
