@@ -3,6 +3,7 @@
 
 #include "examples/quality/recipes.hpp"
 
+#include <shadowmath/choose_maps.hpp>
 #include <shadowmath/shadowmath.hpp>
 
 #include <algorithm>
@@ -149,6 +150,22 @@ Fitted plane_first(Input const& in) {
     return fitted;
 }
 
+Fitted chosen_from_depth(Input const& in) {
+    MapLimits<double> limits;
+    limits.eye_pixels = {in.picture.width, in.picture.height};
+    limits.cells = {in.coarse.extent.width, in.coarse.extent.height};
+    limits.maps = map_count;
+    limits.map_size = map_size;
+    limits.margin_texels = margin_texels;
+    limits.clip = clip;
+    static MapSearch<double> work;
+    ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.coarse.points.data(),
+                                                  int(in.coarse.points.size()), limits, work);
+    Fitted fitted;
+    for (int i = 0; i < chosen.count; ++i) fitted.maps.push_back({chosen.at[std::size_t(i)].map, in.seen.z_far});
+    return fitted;
+}
+
 struct Entry {
     Policy policy;
     std::function<Fitted(Input const&)> make;
@@ -171,6 +188,7 @@ std::vector<Entry> const& entries() {
         {{"sdsm", "samples, splits around gaps", Family::library, false, true},
          [](Input const& in) { return sampled(in, SampleSplits::adaptive); }},
         {{"options", "options chosen from bounds", Family::library}, chosen_options},
+        {{"chosen-depth", "maps chosen from a depth buffer", Family::chosen, false, true}, chosen_from_depth},
     };
     return all;
 }
