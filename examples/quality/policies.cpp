@@ -160,7 +160,10 @@ Fitted chosen_from_depth(Input const& in) {
     limits.clip = clip;
     static MapSearch<double> work;
     ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.coarse.points.data(),
-                                                  int(in.coarse.points.size()), limits, work);
+                                                  int(in.coarse.points.size()),
+                                                  {in.coarse.nearest.data(), in.coarse.farthest.data(),
+                                                   in.coarse.extent.width, in.coarse.extent.height},
+                                                  limits, work);
     Fitted fitted;
     for (int i = 0; i < chosen.count; ++i) fitted.maps.push_back({chosen.at[std::size_t(i)].map, in.seen.z_far});
     return fitted;
@@ -231,14 +234,29 @@ std::vector<Policy> const& policies() {
 
 Coarse coarse_of(backend::Frame const& frame, View const& view) {
     Coarse coarse;
-    coarse.extent = frame.position.extent;
-    for (std::size_t i = 0; i < frame.position.pixels.size(); ++i) {
-        backend::Texel4 const &p = frame.position.pixels[i], &n = frame.normal.pixels[i];
-        if (p.w < -1.5f) continue;
-        glm::dvec3 const point(p.x, p.y, p.z);
-        if (glm::dot(view.forward, point - view.eye) > view.shadow_distance) continue;
-        coarse.points.push_back({point, glm::dvec3(n.x, n.y, n.z)});
-    }
+    auto const count = std::size_t(coarse.extent.width) * std::size_t(coarse.extent.height);
+    coarse.nearest.assign(count, std::numeric_limits<double>::max());
+    coarse.farthest.assign(count, std::numeric_limits<double>::lowest());
+    backend::Extent const extent = frame.position.extent;
+    auto const tile_of = [](int pixel, int pixels, int tiles) { return int((pixel + 0.5) * tiles / pixels); };
+    auto const middle_of = [](int tile, int pixels, int tiles) { return int((tile + 0.5) * pixels / tiles); };
+    for (int y = 0; y < extent.height; ++y)
+        for (int x = 0; x < extent.width; ++x) {
+            backend::Texel4 const &p = frame.position.at(x, y), &n = frame.normal.at(x, y);
+            if (p.w < -1.5f) continue;
+            glm::dvec3 const point(p.x, p.y, p.z), normal(n.x, n.y, n.z);
+            double const depth = glm::dot(view.forward, point - view.eye);
+            if (depth > view.shadow_distance) continue;
+            int const i = tile_of(x, extent.width, coarse.extent.width), j = tile_of(y, extent.height, coarse.extent.height);
+            auto const tile = std::size_t(j * coarse.extent.width + i);
+            if (glm::dot(normal, view.light_travel) < 0.0) {
+                coarse.nearest[tile] = std::min(coarse.nearest[tile], depth);
+                coarse.farthest[tile] = std::max(coarse.farthest[tile], depth);
+            }
+            if (x == middle_of(i, extent.width, coarse.extent.width) &&
+                y == middle_of(j, extent.height, coarse.extent.height))
+                coarse.points.push_back({point, normal});
+        }
     return coarse;
 }
 

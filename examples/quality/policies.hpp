@@ -33,10 +33,12 @@ struct Policy {
 
 [[nodiscard]] std::vector<Policy> const& policies();
 
-// A coarse picture of the view: what a renderer reads back, or keeps of its last frame.
+// A coarse picture of the view: what a renderer reads back, or keeps of its last frame. In each tile the surface in its
+// middle, and the depths of the nearest and the farthest one that faces the light: three samples a tile.
 struct Coarse {
-    backend::Extent extent{240, 135};
+    backend::Extent extent{120, 68};
     std::vector<SurfacePoint<double>> points;  // within the shadow distance
+    std::vector<double> nearest, farthest;     // eye depth, tile by tile; nearest > farthest: nothing
 };
 
 [[nodiscard]] Coarse coarse_of(backend::Frame const& frame, scenes::View const& view);

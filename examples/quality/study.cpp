@@ -131,9 +131,8 @@ private:
 
     void show(backend::Scene const& scene, oracle::RayOracle const& oracle, scenes::View const& view) {
         ViewTruth const truth = truth_of(settings_, scene.name, *backend_, oracle, view);
-        Coarse coarse;
-        backend_->draw_scene({coarse.extent, gallery::unshadowed(view, coarse.extent)});
-        coarse = coarse_of(backend_->read_frame(), view);
+        backend_->draw_scene({settings_.extent, gallery::unshadowed(view, settings_.extent)});
+        Coarse const coarse = coarse_of(backend_->read_frame(), view);
         ViewResult result{scene.name, view.name, view.shadow_distance, {}, {}};
         std::string line;
         for (Policy const& policy : results_.policies) {

@@ -25,11 +25,13 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// What a footprint of `major` pixels counts for: in proportion while texels can be seen to grow, and ever less for
-// texels so large that the shadow is lost whatever is done.
+// What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel of
+// a pixel and a half is as good as any smaller one; from there on it is so many more wrong, until the shadow is lost.
 template <class T>
 [[nodiscard]] inline T price_of(T major) noexcept {
-    return major / (T(1) + major * T(1.0 / 24.0));
+    constexpr T fine = T(1.4), lost = T(60);
+    T const excess = major > fine ? major - fine : T(0);
+    return T(0.1) * (major < fine ? major : fine) + excess / (T(1) + excess / lost);
 }
 
 // Eye pixels along the longer axis of a texel of the quadrilateral's map at the sample.
@@ -80,6 +82,16 @@ template <class T>
 }
 
 template <class T>
+inline void add(Supports<T>& supports, Vec2<T> const& place) noexcept {
+    Vec2<T> const p = place - supports.frame.middle;
+    for (unsigned i = 0; i < unsigned(quad_directions); ++i) {
+        T const reach = supports.direction[i].x * p.x + supports.direction[i].y * p.y;
+        supports.reach[i] = reach > supports.reach[i] ? reach : supports.reach[i];
+    }
+    ++supports.count;
+}
+
+template <class T>
 inline void add(Supports<T>& supports, LightSample<T> const& sample) noexcept {
     Vec2<T> const p = sample.place - supports.frame.middle;
     for (unsigned i = 0; i < unsigned(quad_directions); ++i) {
@@ -123,16 +135,16 @@ template <class T>
 
 template <class T>
 inline void consider(QuadFit<T>& best, Supports<T> const& supports, std::array<int, 4> direction, T usable_texels,
-                     LightSample<T> const* samples, std::uint16_t const* list, int count, int stride,
-                     T most_warp) noexcept {
+                     LightSample<T> const* samples, std::uint16_t const* list, int count, int stride) noexcept {
     QuadSides<T> sides;
     for (unsigned k = 0; k < 4; ++k) {
         direction[k] = (direction[k] + quad_directions) % quad_directions;
         sides[k] = side_at(supports, direction[k]);
     }
-    Quad<T> const quad = quad_between(sides, most_warp);
+    Quad<T> const quad = quad_between(sides);
     if (!quad.visible) return;
-    T const price = price_of(quad, usable_texels, samples, list, count, stride);
+    // Of no samples the smallest is as good as any.
+    T const price = count > 0 ? price_of(quad, usable_texels, samples, list, count, stride) : area(quad);
     if (!(price < best.price)) return;
     best = {quad, direction, price};
 }
@@ -175,32 +187,32 @@ template <class T>
 }
 
 // No single turn of a side by a 64th makes the price less. `stride` leaves samples out of the price, never out of the
-// map; `most_warp` as for quad_between. Not visible where the list is empty.
+// map. Not visible where there are no supports.
 template <class T>
 [[nodiscard]] inline QuadFit<T> fit_quad(Supports<T> const& supports, LightSample<T> const* samples,
-                                         std::uint16_t const* list, int count, T usable_texels, int stride = 1,
-                                         T most_warp = T(300)) noexcept {
+                                         std::uint16_t const* list, int count, T usable_texels,
+                                         int stride = 1) noexcept {
     QuadFit<T> best;
     if (supports.count == 0) return best;
     constexpr int quarter = quad_directions / 4;
     for (int r = 0; r < quarter; ++r)
         detail::consider(best, supports, {r + 2 * quarter, r, r + 3 * quarter, r + quarter}, usable_texels, samples,
-                         list, count, stride, most_warp);
+                         list, count, stride);
     for (int step = quarter / 2; step >= 1;) {
         QuadFit<T> const before = best;
         for (unsigned k = 0; k < 4; ++k)
             for (int const turn : {-step, step}) {
                 std::array<int, 4> moved = best.direction;
                 moved[k] += turn;
-                detail::consider(best, supports, moved, usable_texels, samples, list, count, stride, most_warp);
+                detail::consider(best, supports, moved, usable_texels, samples, list, count, stride);
             }
         // Two at once: a trapezoid's legs.
         for (int const turn : {-step, step}) {
             std::array<int, 4> legs = best.direction, ends = best.direction;
             legs[0] += turn, legs[1] -= turn;
             ends[2] += turn, ends[3] -= turn;
-            detail::consider(best, supports, legs, usable_texels, samples, list, count, stride, most_warp);
-            detail::consider(best, supports, ends, usable_texels, samples, list, count, stride, most_warp);
+            detail::consider(best, supports, legs, usable_texels, samples, list, count, stride);
+            detail::consider(best, supports, ends, usable_texels, samples, list, count, stride);
         }
         if (!(best.price < before.price * T(0.999))) step /= 2;
     }

@@ -56,9 +56,11 @@ template <class T>
 
 }  // namespace detail
 
-// w varies by no more than `most_warp` from corner to corner; sides that ask for more are not visible.
+// w varies by no more than `most_warp` from corner to corner, and texels are no more than `most_shear` times as long as
+// their sides are apart; sides that ask for more are not visible. Bias, which must suit a whole map, sets both limits.
 template <class T>
-[[nodiscard]] inline Quad<T> quad_between(QuadSides<T> const& side, T most_warp = T(1000)) noexcept {
+[[nodiscard]] inline Quad<T> quad_between(QuadSides<T> const& side, T most_warp = T(8),
+                                          T most_shear = T(3)) noexcept {
     Quad<T> quad;
     auto const& [left, right, bottom, top] = side;
     // Cramer: the combination that vanishes has the four minors for its weights, with signs in turn.
@@ -82,8 +84,31 @@ template <class T>
     quad.y = (bottom * c - top * d) * scale;
     quad.w = w * scale;
     quad.w_least = least * scale;
+    for (T const x : {T(-1), T(1)})
+        for (T const y : {T(-1), T(1)}) {
+            Vec2<T> const along_x = Vec2<T>(quad.x) - Vec2<T>(quad.w) * x;
+            Vec2<T> const along_y = Vec2<T>(quad.y) - Vec2<T>(quad.w) * y;
+            T const cross = along_x.x * along_y.y - along_x.y * along_y.x;
+            T const squares = glm::dot(along_x, along_x) * glm::dot(along_y, along_y);
+            if (!(squares <= cross * cross * most_shear * most_shear)) return quad;
+        }
     quad.visible = all_finite(quad.x) && all_finite(quad.y) && all_finite(quad.w) && quad.w_least > T(0);
     return quad;
+}
+
+// Square metres of the light's plane.
+template <class T>
+[[nodiscard]] inline T area(Quad<T> const& quad) noexcept {
+    Vec2<T> const d = quad.corner[3] - quad.corner[0], e = quad.corner[2] - quad.corner[1];
+    return T(0.5) * std::abs(d.x * e.y - d.y * e.x);
+}
+
+// True inside and on the sides.
+template <class T>
+[[nodiscard]] inline bool holds(Quad<T> const& quad, Vec2<T> const& place) noexcept {
+    Vec3<T> const p(place, T(1));
+    T const w = glm::dot(quad.w, p);
+    return w >= quad.w_least * T(0.999) && std::abs(glm::dot(quad.x, p)) <= w && std::abs(glm::dot(quad.y, p)) <= w;
 }
 
 // Texels gained for a metre along x and along y of the light's plane, at a place inside.
