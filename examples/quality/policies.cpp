@@ -169,6 +169,21 @@ Fitted chosen_from_depth(Input const& in) {
     return fitted;
 }
 
+Fitted chosen_from_boxes(Input const& in) {
+    MapLimits<double> limits;
+    limits.eye_pixels = {in.picture.width, in.picture.height};
+    limits.maps = map_count;
+    limits.map_size = map_size;
+    limits.margin_texels = margin_texels;
+    limits.clip = clip;
+    static MapSearch<double> work;
+    ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.receiver_boxes.data(),
+                                                  int(in.receiver_boxes.size()), limits, work);
+    Fitted fitted;
+    for (int i = 0; i < chosen.count; ++i) fitted.maps.push_back({chosen.at[std::size_t(i)].map, in.seen.z_far});
+    return fitted;
+}
+
 struct Entry {
     Policy policy;
     std::function<Fitted(Input const&)> make;
@@ -191,6 +206,7 @@ std::vector<Entry> const& entries() {
         {{"sdsm", "samples, splits around gaps", Family::library, false, true},
          [](Input const& in) { return sampled(in, SampleSplits::adaptive); }},
         {{"options", "options chosen from bounds", Family::library}, chosen_options},
+        {{"chosen-boxes", "maps chosen from boxes alone", Family::chosen}, chosen_from_boxes},
         {{"chosen-depth", "maps chosen from a depth buffer", Family::chosen, false, true}, chosen_from_depth},
     };
     return all;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <shadowmath/bounds.hpp>
+#include <shadowmath/box_samples.hpp>
 #include <shadowmath/clip_space.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>
@@ -257,7 +258,7 @@ template <class T, class Cover>
     T const usable = usable_texels(limits.map_size, limits.margin_texels);
     int const most = glm::clamp(limits.maps, 1, max_chosen_maps);
     PartSearch<T> search{work, usable};
-    constexpr int coarse = 128;
+    constexpr int coarse = 256;
     PartTree<T> best = grown(search, most, false, coarse);
     PartTree<T> const by_depth = grown(search, most, true, coarse);
     if (by_depth.price < best.price) best = by_depth;
@@ -413,6 +414,46 @@ template <class T>
                                 forward * z + (right * sx + up * sy) * (flat ? T(1) : z);
                 visit(points.data(), n);
             }
+    };
+    ChosenMaps<T> found = detail::search_maps(sampler, casters, limits, work, cover);
+    found.faults |= chosen.faults;
+    return found;
+}
+
+// The same where no depth buffer is at hand: every point of the boxes that the view sees is in a map.
+template <class T>
+[[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light,
+                                               Aabb<T> const& casters, Aabb<T> const* receivers, int receiver_count,
+                                               MapLimits<T> const& limits, MapSearch<T>& work) noexcept {
+    ChosenMaps<T> chosen;
+    chosen.faults = faults_of(view) | faults_of(light) | faults_of_margin(limits.map_size, limits.margin_texels);
+    constexpr int rays_x = 20, rays_y = 12;
+    LightSampler<T> const sampler =
+        light_sampler(view, light, limits.eye_pixels, Vec2<T>(T(rays_x), T(rays_y)));
+    if (!sampler.usable) return chosen;
+    work.count = guesses_in_boxes(sampler, light, receivers, receiver_count, rays_x, rays_y, work.sample.data(),
+                                  max_search_samples);
+    if (work.count == 0) return chosen;
+    ViewVolume<T> const& eye = sampler.view;
+    auto const cover = [&](detail::SeenPart<T> const& part, auto const& visit) {
+        ViewVolume<T> piece = eye;
+        piece.left = std::fmax(eye.left, part.lo.x);
+        piece.right = std::fmin(eye.right, part.hi.x);
+        piece.bottom = std::fmax(eye.bottom, part.lo.y);
+        piece.top = std::fmin(eye.top, part.hi.y);
+        piece.z_near = std::fmax(eye.z_near, part.lo.z);
+        piece.z_far = std::fmin(eye.z_far, part.hi.z);
+        if (!(piece.left < piece.right) || !(piece.bottom < piece.top) || !(piece.z_near < piece.z_far)) return;
+        Aabb<T> const around = bounds_of(corners(piece));
+        for (int i = 0; i < receiver_count; ++i) {
+            if (is_empty(intersect(around, receivers[i]))) continue;
+            ConvexBody<T> const body = visible_body(piece, receivers[i]);
+            if (body.edge_count == 0) continue;
+            std::array<Vec3<T>, 2 * max_body_edges> points;
+            int n = 0;
+            for_each_vertex(body, [&](Vec3<T> const& p) { points[unsigned(n++)] = in_light(sampler.basis, p); });
+            visit(points.data(), n);
+        }
     };
     ChosenMaps<T> found = detail::search_maps(sampler, casters, limits, work, cover);
     found.faults |= chosen.faults;

@@ -59,8 +59,8 @@ template <class T>
 // w varies by no more than `most_warp` from corner to corner, and texels are no more than `most_shear` times as long as
 // their sides are apart; sides that ask for more are not visible. Bias, which must suit a whole map, sets both limits.
 template <class T>
-[[nodiscard]] inline Quad<T> quad_between(QuadSides<T> const& side, T most_warp = T(8),
-                                          T most_shear = T(3)) noexcept {
+[[nodiscard]] inline Quad<T> quad_between(QuadSides<T> const& side, T most_warp = T(4),
+                                          T most_shear = T(1.6)) noexcept {
     Quad<T> quad;
     auto const& [left, right, bottom, top] = side;
     // Cramer: the combination that vanishes has the four minors for its weights, with signs in turn.
