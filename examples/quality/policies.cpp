@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -150,38 +151,49 @@ Fitted plane_first(Input const& in) {
     return fitted;
 }
 
-Fitted chosen_from_depth(Input const& in) {
+MapLimits<double> limits_of(Input const& in) {
     MapLimits<double> limits;
     limits.eye_pixels = {in.picture.width, in.picture.height};
-    limits.cells = {in.coarse.extent.width, in.coarse.extent.height};
     limits.maps = map_count;
     limits.map_size = map_size;
     limits.margin_texels = margin_texels;
     limits.clip = clip;
+    return limits;
+}
+
+// The choice in words.
+Fitted with(Input const& in, ChosenMaps<double> const& chosen) {
+    Fitted fitted;
+    for (ChosenMap<double> const& map : chosen) {
+        fitted.maps.push_back({map.map, in.seen.z_far});
+        ViewPart<double> const& part = map.part;
+        double const across = std::min(part.hi.x, in.seen.right) - std::max(part.lo.x, in.seen.left);
+        double const up = std::min(part.hi.y, in.seen.top) - std::max(part.lo.y, in.seen.bottom);
+        char text[256];
+        std::snprintf(text, sizeof text, "%s%.3g to %.3g m, %.0f x %.0f %% of the picture: %s (growth %.2f), %.2f px",
+                      fitted.note.empty() ? "" : "; ", std::max(part.lo.z, in.seen.z_near),
+                      std::min(part.hi.z, in.seen.z_far), 100.0 * across / (in.seen.right - in.seen.left),
+                      100.0 * up / (in.seen.top - in.seen.bottom), describe(map.shape), map.growth, map.mean);
+        fitted.note += text;
+    }
+    return fitted;
+}
+
+Fitted chosen_from_depth(Input const& in) {
     static MapSearch<double> work;
+    MapLimits<double> const limits = limits_of(in);
     ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.coarse.points.data(),
                                                   int(in.coarse.points.size()),
                                                   {in.coarse.nearest.data(), in.coarse.farthest.data(),
                                                    in.coarse.extent.width, in.coarse.extent.height},
                                                   limits, work);
-    Fitted fitted;
-    for (int i = 0; i < chosen.count; ++i) fitted.maps.push_back({chosen.at[std::size_t(i)].map, in.seen.z_far});
-    return fitted;
+    return with(in, chosen);
 }
 
 Fitted chosen_from_boxes(Input const& in) {
-    MapLimits<double> limits;
-    limits.eye_pixels = {in.picture.width, in.picture.height};
-    limits.maps = map_count;
-    limits.map_size = map_size;
-    limits.margin_texels = margin_texels;
-    limits.clip = clip;
     static MapSearch<double> work;
-    ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.receiver_boxes.data(),
-                                                  int(in.receiver_boxes.size()), limits, work);
-    Fitted fitted;
-    for (int i = 0; i < chosen.count; ++i) fitted.maps.push_back({chosen.at[std::size_t(i)].map, in.seen.z_far});
-    return fitted;
+    return with(in, choose_maps(in.seen, in.light, in.casters, in.receiver_boxes.data(),
+                                int(in.receiver_boxes.size()), limits_of(in), work));
 }
 
 struct Entry {

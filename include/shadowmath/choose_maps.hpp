@@ -1,6 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
 // Maps instead of options: up to four, put where the picture needs them, found by measuring.
+//
+//   from a depth buffer   ── what the eye sees, tile by tile ──┐                        ┌─ quad_map ── map 0
+//                                                              ├─ parts ── fit_quad ────┼─ quad_map ── map 1
+//   from boxes alone      ── what it may see (box_samples) ────┘  (part_search)         └─ ...
+//
+// Every map of a sun is a homography of the light's plane: a box, a rectangle at any angle, a warp of any strength, a
+// view-dependent map. So none of these is a policy here. Each part of the picture gets the quadrilateral whose texels
+// look smallest in it, whatever it may be called. Maps come finest first and are looked up by by_map (sampling.hpp): a
+// point inside two gets the finer one, and a later map leaves out what an earlier one holds already.
+//
+// Use it when edges may crawl a little: they move with the camera, as those of all fits to what is seen do. Where
+// nothing may, choose.hpp finds options for stable cascades. A search takes milliseconds, not microseconds: at the
+// loading of a level, when the camera has gone elsewhere, or on another thread, a frame behind.
+//
+// Source: none; the parts stand where Lauritzen, Salvi and Lefohn (I3D 2011) have boxes.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
@@ -8,11 +23,14 @@
 #include <shadowmath/clip_space.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>
+#include <shadowmath/finite.hpp>
 #include <shadowmath/fit_quad.hpp>
 #include <shadowmath/judge.hpp>
 #include <shadowmath/light.hpp>
 #include <shadowmath/light_samples.hpp>
+#include <shadowmath/map_rows.hpp>
 #include <shadowmath/margin.hpp>
+#include <shadowmath/part_search.hpp>
 #include <shadowmath/polytope.hpp>
 #include <shadowmath/quad_map.hpp>
 #include <shadowmath/shadow_map.hpp>
@@ -26,21 +44,18 @@
 namespace shadowmath {
 inline namespace v0 {
 
-inline constexpr int max_chosen_maps = 4;
-inline constexpr int max_search_samples = 1024;
-
 template <class T>
 struct MapLimits {
-    Vec2<T> eye_pixels{T(1920), T(1080)};
-    Vec2<T> cells{T(240), T(135)};  // of the picture that a sample each was taken from
-    int maps = 4;
-    int map_size = 1024;
-    T margin_texels = T(2);
-    ClipSpace clip = gl_clip;
+    Vec2<T> eye_pixels{T(1920), T(1080)};  // the picture that shadows are for
+    int maps = 4;                          // at most; 1 to max_chosen_maps
+    int map_size = 1024;                   // texels along one side of each
+    T margin_texels = T(2);                // free on every side: half the width of the PCF kernel, and one
+    ClipSpace clip = gl_clip;              // the convention of the pass that draws the maps
 };
 
-// Nearest and farthest eye depth in each of width * height equal tiles of the picture, row by row from the bottom:
-// what a renderer's depth pyramid holds. A tile in which nothing is seen has nearest > farthest.
+// Nearest and farthest eye depth in each of width * height equal tiles of the picture, row by row from its bottom: what
+// a renderer's depth pyramid holds, of surfaces within the shadow distance that face the light. A tile where nothing
+// is seen has nearest > farthest.
 template <class T>
 struct DepthTiles {
     T const* nearest = nullptr;
@@ -49,310 +64,181 @@ struct DepthTiles {
     int height = 0;
 };
 
-namespace detail {
-
-// A part of the picture and of its depth: lo <= seen < hi.
-template <class T>
-struct SeenPart {
-    Vec3<T> lo{std::numeric_limits<T>::lowest()};
-    Vec3<T> hi{std::numeric_limits<T>::max()};
+// What a map has become, in the words of the other headers.
+enum class MapShape : std::uint8_t {
+    rectangle,  // at some angle, its texels alike all over
+    warp,       // a perspective one: texels grow from one end to the other
+    lopsided    // a warp whose sides are not alike, or sheared
 };
 
-template <class T>
-[[nodiscard]] inline bool holds(SeenPart<T> const& part, Vec3<T> const& seen) noexcept {
-    return part.lo.x <= seen.x && seen.x < part.hi.x && part.lo.y <= seen.y && seen.y < part.hi.y &&
-           part.lo.z <= seen.z && seen.z < part.hi.z;
+[[nodiscard]] constexpr char const* describe(MapShape shape) noexcept {
+    switch (shape) {
+        case MapShape::rectangle: return "a rectangle at the best angle: texels as fine at one end as at the other";
+        case MapShape::warp: return "a perspective warp: fine texels where the picture needs them, coarse ones beyond";
+        case MapShape::lopsided: return "four free sides: the part is wider, or seen from nearer, at one corner";
+    }
+    return "no map";
 }
-
-// Parts as a binary tree of cuts. A leaf has no axis.
-template <class T>
-struct PartTree {
-    struct Node {
-        SeenPart<T> part;
-        int axis = -1;
-        T at = T(0);
-        int child = 0;  // and the next one
-        QuadFit<T> fit;
-    };
-    std::array<Node, 2 * max_chosen_maps> node;
-    int count = 0;
-    int leaves = 0;
-    T price = std::numeric_limits<T>::max();
-};
-
-}  // namespace detail
-
-// What the search works on; some 160 kB that the caller keeps, so that no stack has to.
-template <class T>
-struct MapSearch {
-    std::array<LightSample<T>, max_search_samples> sample;
-    std::array<std::uint16_t, max_search_samples> list;
-    int count = 0;
-};
 
 template <class T>
 struct ChosenMap {
     ShadowMap<T> map;
-    int samples = 0;  // that it serves
-    T mean = T(0);    // footprint of those, eye pixels
+    ViewPart<T> part;  // of the view that it was made for; it serves whatever else it holds, too
+    MapShape shape = MapShape::rectangle;
+    T growth = T(1);   // how many times longer a texel is at the coarse end than at the fine one
+    int samples = 0;   // of the search, that it serves
+    T mean = T(0);     // of their footprints, eye pixels a texel along its longer axis
+    T worst = T(0);
 };
 
 template <class T>
 struct ChosenMaps {
     std::array<ChosenMap<T>, max_chosen_maps> at;
-    int count = 0;
-    int tried = 0;  // fits
-    T price = T(0);
+    int count = 0;      // 0: nothing to draw, everything lit
+    int tried = 0;      // fits
+    T one_map = T(0);   // the price of a sample (price_of) with a single map of this size
+    T price = T(0);     // and with those chosen
     Faults faults;
+
+    [[nodiscard]] ChosenMap<T> const* begin() const noexcept { return at.data(); }
+    [[nodiscard]] ChosenMap<T> const* end() const noexcept { return at.data() + count; }
 };
 
 namespace detail {
 
+// Samples that a candidate is priced by.
+inline constexpr int priced_samples = 256;
+
 template <class T>
-struct PartSearch {
-    MapSearch<T>& work;
-    T usable_texels;
-    int tried = 0;
-
-    int gather(SeenPart<T> const& part) noexcept {
-        int n = 0;
-        for (int i = 0; i < work.count; ++i)
-            if (holds(part, work.sample[unsigned(i)].seen)) work.list[unsigned(n++)] = std::uint16_t(i);
-        return n;
+[[nodiscard]] inline MapShape shape_of(Quad<T> const& quad) noexcept {
+    if (quad.w_least > T(0.95)) {
+        T const cosine = glm::dot(safe_normalize(Vec3<T>(Vec2<T>(quad.x), T(0))).direction,
+                                  safe_normalize(Vec3<T>(Vec2<T>(quad.y), T(0))).direction);
+        return std::abs(cosine) < T(0.1) ? MapShape::rectangle : MapShape::lopsided;
     }
+    // A warp along one axis leaves w alone along the other.
+    T const along_x = std::abs(quad.w.x * quad.y.y - quad.w.y * quad.y.x);
+    T const along_y = std::abs(quad.w.x * quad.x.y - quad.w.y * quad.x.x);
+    T const lesser = along_x < along_y ? along_x : along_y, greater = along_x < along_y ? along_y : along_x;
+    return lesser < T(0.2) * greater ? MapShape::warp : MapShape::lopsided;
+}
 
-    QuadFit<T> fit(SeenPart<T> const& part, int most_samples) noexcept {
-        int const n = gather(part);
-        ++tried;
-        QuadFit<T> none;
-        none.price = T(0);
-        if (n == 0) return none;
-        Supports<T> supports = no_supports(frame_of(work.sample.data(), work.list.data(), n));
-        for (int i = 0; i < n; ++i) add(supports, work.sample[work.list[unsigned(i)]]);
-        int const stride = (n + most_samples - 1) / most_samples;
-        return fit_quad(supports, work.sample.data(), work.list.data(), n, usable_texels, stride);
+// The quadrilaterals of the parts, finest first, each around what no earlier one holds.
+template <class T>
+struct QuadStack {
+    std::array<Quad<T>, max_chosen_maps> quad;
+    std::array<ViewPart<T>, max_chosen_maps> part;
+    int count = 0;
+
+    // The first that holds all of the points; -1: none.
+    [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
+        for (int k = 0; k < count; ++k) {
+            int inside = 0;
+            while (inside < point_count && shadowmath::holds(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside])))
+                ++inside;
+            if (inside == point_count) return k;
+        }
+        return -1;
+    }
+    [[nodiscard]] int holder(LightSample<T> const& sample) const noexcept {
+        Vec3<T> const place(sample.place, sample.depth);
+        return holder(&place, 1);
     }
 };
 
-template <class T>
-inline void cut(SeenPart<T> const& part, int axis, T at, SeenPart<T>& a, SeenPart<T>& b) noexcept {
-    a = part, b = part;
-    a.hi[axis] = at;
-    b.lo[axis] = at;
-}
-
-template <class T>
-inline void ends_of(MapSearch<T> const& work, SeenPart<T> const& part, int axis, T& lo, T& hi) noexcept {
-    lo = std::numeric_limits<T>::max(), hi = std::numeric_limits<T>::lowest();
-    for (int i = 0; i < work.count; ++i) {
-        Vec3<T> const& s = work.sample[unsigned(i)].seen;
-        if (!holds(part, s)) continue;
-        lo = std::fmin(lo, s[axis]);
-        hi = std::fmax(hi, s[axis]);
+template <class T, class Bound, class Cover>
+[[nodiscard]] inline QuadStack<T> stacked(PartSearch<T, Bound>& search, PartTree<T> const& tree,
+                                          Cover const& cover) noexcept {
+    MapSearch<T>& work = search.work;
+    std::array<unsigned, max_chosen_maps> order{};
+    unsigned leaves = 0;
+    for (unsigned n = 0; n < static_cast<unsigned>(tree.count); ++n) {
+        if (tree.node[n].axis >= 0) continue;
+        unsigned at = leaves++;
+        for (; at > 0 && area(tree.node[order[at - 1]].fit.quad) > area(tree.node[n].fit.quad); --at)
+            order[at] = order[at - 1];
+        order[at] = n;
     }
-}
-
-// Greedy: always the part and the cut that save most.
-template <class T>
-[[nodiscard]] inline PartTree<T> grown(PartSearch<T>& search, int most, bool only_depth, int most_samples) noexcept {
-    PartTree<T> tree;
-    tree.node[0].fit = search.fit({}, most_samples);
-    tree.count = 1, tree.leaves = 1;
-    struct Cut {
-        int axis = -1;
-        T at = T(0), saved = T(0);
-        QuadFit<T> a, b;
-    };
-    std::array<Cut, 2 * max_chosen_maps> best;
-    std::array<bool, 2 * max_chosen_maps> known{};
-    while (tree.leaves < most) {
-        int take = -1;
-        for (int n = 0; n < tree.count; ++n) {
-            auto const& node = tree.node[unsigned(n)];
-            if (node.axis >= 0) continue;
-            Cut& found = best[unsigned(n)];
-            if (!known[unsigned(n)]) {
-                known[unsigned(n)] = true;
-                found = {};
-                for (int axis = 2; axis >= (only_depth ? 2 : 0); --axis) {
-                    T lo, hi;
-                    ends_of(search.work, node.part, axis, lo, hi);
-                    if (!(lo < hi)) continue;
-                    constexpr int steps = 8;
-                    for (int k = 1; k < steps; ++k) {
-                        T const t = T(k) / T(steps);
-                        T const at = axis == 2 ? lo * std::pow(hi / lo, t) : lo + (hi - lo) * t;
-                        SeenPart<T> a, b;
-                        cut(node.part, axis, at, a, b);
-                        QuadFit<T> const fa = search.fit(a, most_samples), fb = search.fit(b, most_samples);
-                        T const saved = node.fit.price - fa.price - fb.price;
-                        if (saved > found.saved) found = {axis, at, saved, fa, fb};
-                    }
-                }
-            }
-            if (found.axis >= 0 && (take < 0 || found.saved > best[unsigned(take)].saved)) take = n;
-        }
-        if (take < 0) break;
-        auto& node = tree.node[unsigned(take)];
-        Cut const& found = best[unsigned(take)];
-        node.axis = found.axis, node.at = found.at, node.child = tree.count;
-        auto &a = tree.node[unsigned(tree.count)], &b = tree.node[unsigned(tree.count + 1)];
-        cut(node.part, node.axis, node.at, a.part, b.part);
-        a.fit = found.a, b.fit = found.b;
-        known[unsigned(tree.count)] = known[unsigned(tree.count + 1)] = false;
-        tree.count += 2;
-        ++tree.leaves;
+    QuadStack<T> stack;
+    for (unsigned k = 0; k < leaves; ++k) {
+        ViewPart<T> const& part = tree.node[order[k]].part;
+        int const all = search.gather(part);
+        SampleFrame<T> const frame = frame_of(work.sample.data(), work.list.data(), all);
+        unsigned own = 0;  // those that are left to this map
+        for (unsigned i = 0; i < static_cast<unsigned>(all); ++i)
+            if (stack.holder(work.sample[work.list[i]]) < 0) work.list[own++] = work.list[i];
+        SampleFrame<T> const own_frame = frame_of(work.sample.data(), work.list.data(), static_cast<int>(own));
+        Supports<T> supports = no_supports(own > 2 ? own_frame : frame);
+        cover(part, [&](Vec3<T> const* points, int count) {
+            if (stack.holder(points, count) >= 0) return;
+            for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
+        });
+        QuadFit<T> const fit = fit_quad(supports, work.sample.data(), work.list.data(), static_cast<int>(own),
+                                        search.usable_texels);
+        if (!fit.quad.visible) continue;
+        stack.part[static_cast<unsigned>(stack.count)] = part;
+        stack.quad[static_cast<unsigned>(stack.count++)] = fit.quad;
     }
-    tree.price = T(0);
-    for (int n = 0; n < tree.count; ++n)
-        if (tree.node[unsigned(n)].axis < 0) tree.price += tree.node[unsigned(n)].fit.price;
-    return tree;
-}
-
-template <class T>
-inline void refit(PartSearch<T>& search, PartTree<T>& tree, int most_samples) noexcept {
-    tree.price = T(0);
-    for (int n = 0; n < tree.count; ++n) {
-        auto& node = tree.node[unsigned(n)];
-        if (node.axis < 0) {
-            node.fit = search.fit(node.part, most_samples);
-            tree.price += node.fit.price;
-        } else {
-            cut(node.part, node.axis, node.at, tree.node[unsigned(node.child)].part,
-                tree.node[unsigned(node.child + 1)].part);
-        }
-    }
-}
-
-// The cuts move while that helps.
-template <class T>
-inline void settle(PartSearch<T>& search, PartTree<T>& tree, int most_samples) noexcept {
-    for (T step : {T(0.06), T(0.03), T(0.015)})
-        for (int n = 0; n < tree.count; ++n) {
-            if (tree.node[unsigned(n)].axis < 0) continue;
-            for (T const sign : {T(-1), T(1)}) {
-                for (int again = 0; again < 3; ++again) {
-                    PartTree<T> moved = tree;
-                    auto& node = moved.node[unsigned(n)];
-                    T lo, hi;
-                    ends_of(search.work, node.part, node.axis, lo, hi);
-                    if (node.axis == 2)
-                        node.at *= std::pow(hi / lo, sign * step);
-                    else
-                        node.at += (hi - lo) * sign * step;
-                    refit(search, moved, most_samples);
-                    if (!(moved.price < tree.price)) break;
-                    tree = moved;
-                }
-            }
-        }
+    return stack;
 }
 
 // `cover(part, visit)` calls visit(points, count) for convex pieces that together hold all that may be seen in the
-// part, as light-space points relative to the eye.
-template <class T, class Cover>
+// part: points in light space, relative to the eye. `bound` as for PartSearch: the same, or quicker and nearly so.
+template <class T, class Bound, class Cover>
 [[nodiscard]] inline ChosenMaps<T> search_maps(LightSampler<T> const& sampler, Aabb<T> const& casters,
-                                               MapLimits<T> const& limits, MapSearch<T>& work,
+                                               MapLimits<T> const& limits, MapSearch<T>& work, Bound const& bound,
                                                Cover const& cover) noexcept {
     ChosenMaps<T> chosen;
-    T const usable = usable_texels(limits.map_size, limits.margin_texels);
+    if (work.count == 0) return chosen;
+    PartSearch<T, Bound> search{work, bound, usable_texels(limits.map_size, limits.margin_texels), priced_samples};
     int const most = glm::clamp(limits.maps, 1, max_chosen_maps);
-    PartSearch<T> search{work, usable};
-    constexpr int coarse = 256;
-    PartTree<T> best = grown(search, most, false, coarse);
-    PartTree<T> const by_depth = grown(search, most, true, coarse);
-    if (by_depth.price < best.price) best = by_depth;
-    settle(search, best, coarse);
+    if (most != limits.maps) chosen.faults |= Fault::count_clamped;
+    PartTree<T> tree = grown(search, most, false);
+    PartTree<T> const by_depth = grown(search, most, true);
+    if (by_depth.price < tree.price) tree = by_depth;
+    chosen.one_map = tree.node[0].fit.price;
+    settle(search, tree);
+    QuadStack<T> const stack = stacked(search, tree, cover);
+    chosen.tried = search.tried;
 
-    // Finest first: whoever is inside two maps gets the better one.
-    std::array<int, max_chosen_maps> order{};
-    int leaves = 0;
-    for (int n = 0; n < best.count; ++n)
-        if (best.node[unsigned(n)].axis < 0) order[unsigned(leaves++)] = n;
-    auto const area_of = [&](int n) { return area(best.node[unsigned(n)].fit.quad); };
-    for (int i = 1; i < leaves; ++i)
-        for (int j = i; j > 0 && area_of(order[unsigned(j)]) < area_of(order[unsigned(j - 1)]); --j) {
-            int const swap = order[unsigned(j)];
-            order[unsigned(j)] = order[unsigned(j - 1)];
-            order[unsigned(j - 1)] = swap;
-        }
-
-    std::array<Quad<T>, max_chosen_maps> quads;
-    std::array<T, max_chosen_maps> first, last, sum;
-    std::array<int, max_chosen_maps> served{};
-    first.fill(std::numeric_limits<T>::max());
-    last.fill(std::numeric_limits<T>::lowest());
-    sum.fill(T(0));
-    int made = 0;
-    auto const holder_of = [&](Vec3<T> const* points, int count) {
-        for (int k = 0; k < made; ++k) {
-            bool inside = true;
-            for (int i = 0; i < count && inside; ++i) inside = shadowmath::holds(quads[unsigned(k)], Vec2<T>(points[i]));
-            if (inside) return k;
-        }
-        return -1;
-    };
-    auto const holder_of_sample = [&](LightSample<T> const& s) {
-        Vec3<T> const place(s.place, s.depth);
-        return holder_of(&place, 1);
-    };
-    for (int k = 0; k < leaves; ++k) {
-        SeenPart<T> const& part = best.node[unsigned(order[unsigned(k)])].part;
-        int n = 0;
+    // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
+    // and whole in the map of its own part.
+    std::array<Extent<T>, max_chosen_maps> depth;
+    for (int k = 0; k < stack.count; ++k)
+        cover(stack.part[static_cast<unsigned>(k)], [&](Vec3<T> const* points, int count) {
+            int const holder = stack.holder(points, count);
+            for (int i = 0; i < count && holder >= 0; ++i) depth[static_cast<unsigned>(holder)].add(points[i].z);
+        });
+    for (int k = 0; k < stack.count; ++k) {
+        Extent<T> const& along = depth[static_cast<unsigned>(k)];
+        if (!(along.lo <= along.hi)) continue;
+        Quad<T> const& quad = stack.quad[static_cast<unsigned>(k)];
+        ChosenMap<T>& made = chosen.at[static_cast<unsigned>(chosen.count)];
+        T const room = T(1e-3) * (along.hi - along.lo) + T(1e-3);
+        made.map = quad_map(quad, sampler.basis, sampler.view.pose.position, along.lo - room, along.hi + room, casters,
+                            limits.map_size, limits.margin_texels, limits.clip);
+        chosen.faults |= made.map.faults;
+        if (!made.map.visible) continue;
+        made.part = stack.part[static_cast<unsigned>(k)];
+        made.shape = shape_of(quad);
+        made.growth = T(1) / quad.w_least;
+        T sum = T(0);
         for (int i = 0; i < work.count; ++i) {
-            LightSample<T> const& s = work.sample[unsigned(i)];
-            if (holds(part, s.seen) && holder_of_sample(s) < 0) work.list[unsigned(n++)] = std::uint16_t(i);
+            LightSample<T> const& sample = work.sample[static_cast<unsigned>(i)];
+            if (stack.holder(sample) != k) continue;
+            T const major = major_at(quad, search.usable_texels, sample);
+            sum += major;
+            chosen.price += sample.weight * price_of(major);
+            made.worst = std::fmax(made.worst, major);
+            ++made.samples;
         }
-        SampleFrame<T> frame = frame_of(work.sample.data(), work.list.data(), n);
-        if (n < 3) {
-            int const all = search.gather(part);
-            frame = frame_of(work.sample.data(), work.list.data(), all);
-            n = 0;
-        }
-        Supports<T> supports = no_supports(frame);
-        cover(part, [&](Vec3<T> const* points, int count) {
-            if (holder_of(points, count) >= 0) return;
-            for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
-        });
-        if (supports.count == 0) continue;
-        if (n == 0) n = search.gather(part);
-        QuadFit<T> const fit = fit_quad(supports, work.sample.data(), work.list.data(), n, usable, 1);
-        if (!fit.quad.visible) continue;
-        quads[unsigned(made++)] = fit.quad;
-    }
-    // Each piece is served by the first map that holds the whole of it, and each of its points by the first that holds
-    // that: all of these maps must reach as deep.
-    for (int k = 0; k < leaves; ++k)
-        cover(best.node[unsigned(order[unsigned(k)])].part, [&](Vec3<T> const* points, int count) {
-            T lo = points[0].z, hi = points[0].z;
-            for (int i = 1; i < count; ++i) lo = std::fmin(lo, points[i].z), hi = std::fmax(hi, points[i].z);
-            int const whole = holder_of(points, count);
-            for (int m = 0; m < made; ++m) {
-                if (m == whole) {
-                    first[unsigned(m)] = std::fmin(first[unsigned(m)], lo);
-                    last[unsigned(m)] = std::fmax(last[unsigned(m)], hi);
-                }
-            }
-        });
-    for (int i = 0; i < work.count; ++i) {
-        LightSample<T> const& s = work.sample[unsigned(i)];
-        int const k = holder_of_sample(s);
-        if (k < 0) continue;
-        sum[unsigned(k)] += major_at(quads[unsigned(k)], usable, s);
-        ++served[unsigned(k)];
-    }
-    for (int k = 0; k < made; ++k) {
-        if (!(first[unsigned(k)] <= last[unsigned(k)])) continue;
-        ChosenMap<T>& out = chosen.at[unsigned(chosen.count)];
-        T const room = T(0.001) * (last[unsigned(k)] - first[unsigned(k)]) + T(1e-3);
-        out.map = quad_map(quads[unsigned(k)], sampler.basis, sampler.view.pose.position, first[unsigned(k)] - room,
-                           last[unsigned(k)] + room, casters, limits.map_size, limits.margin_texels, limits.clip);
-        if (!out.map.visible) continue;
-        out.samples = served[unsigned(k)];
-        out.mean = served[unsigned(k)] > 0 ? sum[unsigned(k)] / T(served[unsigned(k)]) : T(0);
+        made.mean = made.samples > 0 ? sum / T(made.samples) : T(0);
         ++chosen.count;
     }
-    chosen.tried = search.tried;
+    T weight = T(0);
+    for (int i = 0; i < work.count; ++i) weight += work.sample[static_cast<unsigned>(i)].weight;
+    chosen.one_map = weight > T(0) ? chosen.one_map / weight : T(0);
+    chosen.price = weight > T(0) ? chosen.price / weight : T(0);
     return chosen;
 }
 
@@ -360,82 +246,111 @@ template <class T, class Cover>
 template <class T>
 inline void take_samples(MapSearch<T>& work, LightSampler<T> const& sampler, SurfacePoint<T> const* samples,
                          int count) noexcept {
-    work.count = 0;
-    int usable = 0;
-    for (int i = 0; i < count; ++i) {
-        LightSample<T> const s = light_sample(sampler, samples[i]);
-        if (s.usable && s.weight > T(0)) ++usable;
-    }
-    int const stride = (usable + max_search_samples - 1) / max_search_samples;
+    auto const is_asked = [](LightSample<T> const& sample) { return sample.usable && sample.weight > T(0); };
+    int asked = 0;
+    for (int i = 0; i < count; ++i) asked += is_asked(light_sample(sampler, samples[i])) ? 1 : 0;
+    int const stride = (asked + max_search_samples - 1) / max_search_samples;
     int seen = 0;
-    for (int i = 0; i < count; ++i) {
-        LightSample<T> const s = light_sample(sampler, samples[i]);
-        if (!s.usable || !(s.weight > T(0))) continue;
-        // One of each `stride`, not always the same one: else they might all lie in a few columns of the picture.
-        if (seen % stride == seen / stride * 7 % stride && work.count < max_search_samples)
-            work.sample[unsigned(work.count++)] = s;
+    work.count = 0;
+    for (int i = 0; i < count && work.count < max_search_samples; ++i) {
+        LightSample<T> const sample = light_sample(sampler, samples[i]);
+        if (!is_asked(sample)) continue;
+        // One of each `stride`, not always the same one: else all might lie in a few columns of the picture.
+        if (seen % stride == seen / stride * 7 % stride) work.sample[static_cast<unsigned>(work.count++)] = sample;
         ++seen;
     }
 }
 
+// Spots have no light's plane.
+template <class T>
+[[nodiscard]] inline Door<T> door_of_choice(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
+                                            MapLimits<T> const& limits) noexcept {
+    Door<T> in = door(view, light, casters, casters, limits.map_size, limits.margin_texels);
+    bool const pixels = all_finite(limits.eye_pixels) && limits.eye_pixels.x > T(0) && limits.eye_pixels.y > T(0);
+    if (light.kind != LightKind::directional || !pixels) in.faults |= Fault::clamped_option;
+    in.stop = in.stop || light.kind != LightKind::directional || !pixels;
+    return in;
+}
+
 }  // namespace detail
 
+// Every point of every tile between its two depths is in one of the maps, with margin_texels to spare on each side, and
+// every caster of the box between it and the sun is in that map. `samples`, a surface each from somewhere in a tile,
+// only weigh what is worth texels; those turned away from the light count for nothing. The same inputs give the same
+// maps. Depths that are no numbers, or not in front of the eye, are no tiles; the last are cut at view.z_far.
+//
+// Not visible, and no fault: no casters, no tiles, no samples. A spot is clamped_option, as are pixels <= 0.
 template <class T>
 [[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light,
                                                Aabb<T> const& casters, SurfacePoint<T> const* samples,
-                                               int sample_count, DepthTiles<T> const& tiles,
-                                               MapLimits<T> const& limits, MapSearch<T>& work) noexcept {
-    ChosenMaps<T> chosen;
-    chosen.faults = faults_of(view) | faults_of(light) | faults_of_margin(limits.map_size, limits.margin_texels);
-    LightSampler<T> const sampler = light_sampler(view, light, limits.eye_pixels, limits.cells);
-    if (!sampler.usable) return chosen;
+                                               int sample_count, DepthTiles<T> const& tiles, MapLimits<T> const& limits,
+                                               MapSearch<T>& work) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a choice needs its samples");
+    bool const has_tiles = tiles.width > 0 && tiles.height > 0;
+    SHADOWMATH_ASSERT(!has_tiles || (tiles.nearest != nullptr && tiles.farthest != nullptr), "tiles need both depths");
+    ChosenMaps<T> none;
+    Door<T> const in = detail::door_of_choice(view, light, casters, limits);
+    none.faults = in.faults;
+    if (in.stop || !has_tiles) return none;
+    ViewVolume<T> const& eye = in.view;
+    LightSampler<T> const sampler =
+        light_sampler(eye, in.light, limits.eye_pixels, Vec2<T>(T(tiles.width), T(tiles.height)));
+    if (!sampler.usable) return none;
     detail::take_samples(work, sampler, samples, sample_count);
-    if (work.count == 0) return chosen;
-    ViewVolume<T> const& eye = sampler.view;
-    Vec3<T> const right = in_light(sampler.basis, eye.pose.right), up = in_light(sampler.basis, eye.pose.up),
-                  forward = in_light(sampler.basis, eye.pose.forward);
+    Vec3<T> const right = in_light(sampler.basis, eye.pose.right), up = in_light(sampler.basis, eye.pose.up);
+    Vec3<T> const forward = in_light(sampler.basis, eye.pose.forward);
     bool const flat = eye.kind == ViewKind::orthographic;
-    auto const cover = [&](detail::SeenPart<T> const& part, auto const& visit) {
+    Vec2<T> const first(eye.left, eye.bottom);
+    Vec2<T> const size((eye.right - eye.left) / T(tiles.width), (eye.top - eye.bottom) / T(tiles.height));
+    auto const cover = [&](ViewPart<T> const& part, auto const& visit) {
+        constexpr T slack = T(1e-5);  // receivers are drawn by another pass than the depths were
         for (int y = 0; y < tiles.height; ++y)
             for (int x = 0; x < tiles.width; ++x) {
-                int const i = y * tiles.width + x;
-                T const z0 = std::fmax(tiles.nearest[i] * (T(1) - T(1e-5)), part.lo.z);
-                T const z1 = std::fmin(tiles.farthest[i] * (T(1) + T(1e-5)), part.hi.z);
-                T const wide = (eye.right - eye.left) / T(tiles.width), high = (eye.top - eye.bottom) / T(tiles.height);
-                T const x0 = std::fmax(eye.left + wide * T(x), part.lo.x), x1 = std::fmin(eye.left + wide * T(x + 1), part.hi.x);
-                T const y0 = std::fmax(eye.bottom + high * T(y), part.lo.y), y1 = std::fmin(eye.bottom + high * T(y + 1), part.hi.y);
-                if (!(z0 <= z1) || !(x0 <= x1) || !(y0 <= y1)) continue;
+                T const* const nearest = tiles.nearest + y * tiles.width + x;
+                T const* const farthest = tiles.farthest + y * tiles.width + x;
+                if (!all_finite(nearest, 1) || !all_finite(farthest, 1) || !(*nearest <= *farthest)) continue;
+                Vec2<T> const tile = first + size * Vec2<T>(T(x), T(y));
+                Vec3<T> const tile_lo(tile, std::fmax(*nearest * (T(1) - slack), eye.z_near * (T(1) - slack)));
+                Vec3<T> const tile_hi(tile + size, std::fmin(*farthest * (T(1) + slack), eye.z_far * (T(1) + slack)));
+                Vec3<T> const lo = glm::max(tile_lo, part.lo), hi = glm::min(tile_hi, part.hi);
+                if (!(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z && hi.z > T(0))) continue;
                 std::array<Vec3<T>, 8> points;
-                int n = 0;
-                for (T const z : {z0, z1})
-                    for (T const sx : {x0, x1})
-                        for (T const sy : {y0, y1})
-                            points[unsigned(n++)] =
-                                forward * z + (right * sx + up * sy) * (flat ? T(1) : z);
-                visit(points.data(), n);
+                for (unsigned i = 0; i < 8; ++i) {
+                    T const z = (i & 4u) != 0 ? hi.z : lo.z, spread = flat ? T(1) : z;
+                    T const side_x = (i & 1u) != 0 ? hi.x : lo.x, side_y = (i & 2u) != 0 ? hi.y : lo.y;
+                    points[i] = forward * z + (right * side_x + up * side_y) * spread;
+                }
+                visit(points.data(), 8);
             }
     };
-    ChosenMaps<T> found = detail::search_maps(sampler, casters, limits, work, cover);
-    found.faults |= chosen.faults;
-    return found;
+    // A sample is its whole tile, to the search.
+    auto const bound = [&](ViewPart<T> const&, int count, Supports<T>& supports) {
+        for (int i = 0; i < count; ++i) add(supports, work.sample[work.list[static_cast<unsigned>(i)]]);
+    };
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
+    chosen.faults |= in.faults;
+    return chosen;
 }
 
-// The same where no depth buffer is at hand: every point of the boxes that the view sees is in a map.
+// The same where there is no depth buffer: every point of the boxes that the eye may see, up to view.z_far, is in one
+// of the maps, and so is every caster between it and the sun. What is worth texels is guessed (box_samples.hpp). Boxes
+// that are empty or not finite are no receivers; large ones are cut to the view.
 template <class T>
 [[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light,
                                                Aabb<T> const& casters, Aabb<T> const* receivers, int receiver_count,
                                                MapLimits<T> const& limits, MapSearch<T>& work) noexcept {
-    ChosenMaps<T> chosen;
-    chosen.faults = faults_of(view) | faults_of(light) | faults_of_margin(limits.map_size, limits.margin_texels);
-    constexpr int rays_x = 20, rays_y = 12;
-    LightSampler<T> const sampler =
-        light_sampler(view, light, limits.eye_pixels, Vec2<T>(T(rays_x), T(rays_y)));
-    if (!sampler.usable) return chosen;
-    work.count = guesses_in_boxes(sampler, light, receivers, receiver_count, rays_x, rays_y, work.sample.data(),
-                                  max_search_samples);
-    if (work.count == 0) return chosen;
-    ViewVolume<T> const& eye = sampler.view;
-    auto const cover = [&](detail::SeenPart<T> const& part, auto const& visit) {
+    SHADOWMATH_ASSERT(receivers != nullptr || receiver_count <= 0, "a choice needs its receivers");
+    ChosenMaps<T> none;
+    Door<T> const in = detail::door_of_choice(view, light, casters, limits);
+    none.faults = in.faults;
+    if (in.stop) return none;
+    ViewVolume<T> const& eye = in.view;
+    LightSampler<T> const sampler = light_sampler(eye, in.light, limits.eye_pixels * leaning_surfaces<T>,
+                                                  Vec2<T>(T(guess_rays_x), T(guess_rays_y)));
+    if (!sampler.usable) return none;
+    work.count =
+        guesses_in_boxes(sampler, in.light, receivers, receiver_count, work.sample.data(), max_search_samples);
+    auto const cover = [&](ViewPart<T> const& part, auto const& visit) {
         ViewVolume<T> piece = eye;
         piece.left = std::fmax(eye.left, part.lo.x);
         piece.right = std::fmin(eye.right, part.hi.x);
@@ -443,21 +358,31 @@ template <class T>
         piece.top = std::fmin(eye.top, part.hi.y);
         piece.z_near = std::fmax(eye.z_near, part.lo.z);
         piece.z_far = std::fmin(eye.z_far, part.hi.z);
-        if (!(piece.left < piece.right) || !(piece.bottom < piece.top) || !(piece.z_near < piece.z_far)) return;
-        Aabb<T> const around = bounds_of(corners(piece));
+        if (!(piece.left < piece.right && piece.bottom < piece.top && piece.z_near < piece.z_far)) return;
+        T const slack = T(16) * std::numeric_limits<T>::epsilon() *
+                        (piece.z_far + detail::largest_of(eye.pose.position));
+        Aabb<T> around = bounds_of(corners(piece));
+        around.lo -= slack;
+        around.hi += slack;
         for (int i = 0; i < receiver_count; ++i) {
-            if (is_empty(intersect(around, receivers[i]))) continue;
-            ConvexBody<T> const body = visible_body(piece, receivers[i]);
-            if (body.edge_count == 0) continue;
+            if (!all_finite(receivers[i]) || is_empty(intersect(around, receivers[i]))) continue;
+            ConvexBody<T> const body = visible_body(piece, receivers[i], slack);
             std::array<Vec3<T>, 2 * max_body_edges> points;
-            int n = 0;
-            for_each_vertex(body, [&](Vec3<T> const& p) { points[unsigned(n++)] = in_light(sampler.basis, p); });
-            visit(points.data(), n);
+            int count = 0;
+            for_each_vertex(body, [&](Vec3<T> const& p) {
+                points[static_cast<unsigned>(count++)] = in_light(sampler.basis, p);
+            });
+            if (count > 0) visit(points.data(), count);
         }
     };
-    ChosenMaps<T> found = detail::search_maps(sampler, casters, limits, work, cover);
-    found.faults |= chosen.faults;
-    return found;
+    auto const bound = [&](ViewPart<T> const& part, int, Supports<T>& supports) {
+        cover(part, [&](Vec3<T> const* points, int count) {
+            for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
+        });
+    };
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
+    chosen.faults |= in.faults;
+    return chosen;
 }
 
 }  // namespace v0

@@ -107,7 +107,7 @@ template <class T>
 [[nodiscard]] inline Vec3<T> side_at(Supports<T> const& supports, int i) noexcept {
     Vec2<T> const& d = supports.direction[static_cast<unsigned>(i)];
     // Coordinates of the frame are about 1 at the samples' ends.
-    T const reach = supports.reach[static_cast<unsigned>(i)] + T(64) * std::numeric_limits<T>::epsilon() + T(1e-4);
+    T const reach = supports.reach[static_cast<unsigned>(i)] + T(1e-4) * std::fmax(T(1), std::abs(supports.reach[static_cast<unsigned>(i)]));
     return Vec3<T>(-d, reach + glm::dot(d, supports.frame.middle));
 }
 
@@ -122,7 +122,7 @@ namespace detail {
 
 // Every stride-th of the samples listed.
 template <class T>
-[[nodiscard]] inline T price_of(Quad<T> const& quad, T usable_texels, LightSample<T> const* samples,
+[[nodiscard]] inline T price_in(Quad<T> const& quad, T usable_texels, LightSample<T> const* samples,
                                 std::uint16_t const* list, int count, int stride) noexcept {
     T sum = T(0);
     for (int i = 0; i < count; i += stride) {
@@ -144,7 +144,7 @@ inline void consider(QuadFit<T>& best, Supports<T> const& supports, std::array<i
     Quad<T> const quad = quad_between(sides);
     if (!quad.visible) return;
     // Of no samples the smallest is as good as any.
-    T const price = count > 0 ? price_of(quad, usable_texels, samples, list, count, stride) : area(quad);
+    T const price = count > 0 ? price_in(quad, usable_texels, samples, list, count, stride) : area(quad);
     if (!(price < best.price)) return;
     best = {quad, direction, price};
 }
