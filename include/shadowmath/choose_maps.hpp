@@ -127,14 +127,16 @@ template <class T>
 template <class T>
 struct QuadStack {
     std::array<Quad<T>, max_chosen_maps> quad;
-    std::array<ViewPart<T>, max_chosen_maps> part;
+    std::array<ViewPart<T>, max_chosen_maps> part;  // that each was made for
     int count = 0;
+    std::array<ViewPart<T>, max_chosen_maps> held;  // parts that needed none of their own
+    int held_count = 0;
 
     // The first that holds all of the points; -1: none.
     [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
         for (int k = 0; k < count; ++k) {
             int inside = 0;
-            while (inside < point_count && shadowmath::holds(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside])))
+            while (inside < point_count && is_in(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside])))
                 ++inside;
             if (inside == point_count) return k;
         }
@@ -175,11 +177,28 @@ template <class T, class Bound, class Cover>
         });
         QuadFit<T> const fit = fit_quad(supports, work.sample.data(), work.list.data(), static_cast<int>(own),
                                         search.usable_texels);
-        if (!fit.quad.visible) continue;
+        if (!fit.quad.visible) {
+            stack.held[static_cast<unsigned>(stack.held_count++)] = part;
+            continue;
+        }
         stack.part[static_cast<unsigned>(stack.count)] = part;
         stack.quad[static_cast<unsigned>(stack.count++)] = fit.quad;
     }
     return stack;
+}
+
+// All samples, each in the first map that holds it; those that none holds are lost.
+template <class T>
+[[nodiscard]] inline T price_in(QuadStack<T> const& stack, MapSearch<T> const& work, T usable_texels) noexcept {
+    T sum = T(0);
+    for (int i = 0; i < work.count; ++i) {
+        LightSample<T> const& sample = work.sample[static_cast<unsigned>(i)];
+        int const k = stack.holder(sample);
+        T const major =
+            k < 0 ? footprint_limit<T> : major_at(stack.quad[static_cast<unsigned>(k)], usable_texels, sample);
+        sum += sample.weight * price_of(major);
+    }
+    return sum;
 }
 
 // `cover(part, visit)` calls visit(points, count) for convex pieces that together hold all that may be seen in the
@@ -193,22 +212,30 @@ template <class T, class Bound, class Cover>
     PartSearch<T, Bound> search{work, bound, usable_texels(limits.map_size, limits.margin_texels), priced_samples};
     int const most = glm::clamp(limits.maps, 1, max_chosen_maps);
     if (most != limits.maps) chosen.faults |= Fault::count_clamped;
-    PartTree<T> tree = grown(search, most, false);
-    PartTree<T> const by_depth = grown(search, most, true);
-    if (by_depth.price < tree.price) tree = by_depth;
-    chosen.one_map = tree.node[0].fit.price;
-    settle(search, tree);
-    QuadStack<T> const stack = stacked(search, tree, cover);
+    // Two searches, and the better outcome: what is seen between the samples may cost one of them more.
+    QuadStack<T> stack;
+    T least = std::numeric_limits<T>::max();
+    for (bool const by_depth_alone : {true, false}) {
+        PartTree<T> tree = grown(search, most, by_depth_alone);
+        chosen.one_map = tree.node[0].fit.price;
+        settle(search, tree);
+        QuadStack<T> const candidate = stacked(search, tree, cover);
+        T const price = price_in(candidate, work, search.usable_texels);
+        if (!(price < least)) continue;
+        least = price;
+        stack = candidate;
+    }
     chosen.tried = search.tried;
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.
     std::array<Extent<T>, max_chosen_maps> depth;
-    for (int k = 0; k < stack.count; ++k)
-        cover(stack.part[static_cast<unsigned>(k)], [&](Vec3<T> const* points, int count) {
-            int const holder = stack.holder(points, count);
-            for (int i = 0; i < count && holder >= 0; ++i) depth[static_cast<unsigned>(holder)].add(points[i].z);
-        });
+    auto const reach = [&](Vec3<T> const* points, int count) {
+        int const holder = stack.holder(points, count);
+        for (int i = 0; i < count && holder >= 0; ++i) depth[static_cast<unsigned>(holder)].add(points[i].z);
+    };
+    for (int k = 0; k < stack.count; ++k) cover(stack.part[static_cast<unsigned>(k)], reach);
+    for (int k = 0; k < stack.held_count; ++k) cover(stack.held[static_cast<unsigned>(k)], reach);
     for (int k = 0; k < stack.count; ++k) {
         Extent<T> const& along = depth[static_cast<unsigned>(k)];
         if (!(along.lo <= along.hi)) continue;
@@ -228,7 +255,6 @@ template <class T, class Bound, class Cover>
             if (stack.holder(sample) != k) continue;
             T const major = major_at(quad, search.usable_texels, sample);
             sum += major;
-            chosen.price += sample.weight * price_of(major);
             made.worst = std::fmax(made.worst, major);
             ++made.samples;
         }
@@ -238,7 +264,7 @@ template <class T, class Bound, class Cover>
     T weight = T(0);
     for (int i = 0; i < work.count; ++i) weight += work.sample[static_cast<unsigned>(i)].weight;
     chosen.one_map = weight > T(0) ? chosen.one_map / weight : T(0);
-    chosen.price = weight > T(0) ? chosen.price / weight : T(0);
+    chosen.price = weight > T(0) ? least / weight : T(0);
     return chosen;
 }
 
@@ -261,6 +287,28 @@ inline void take_samples(MapSearch<T>& work, LightSampler<T> const& sampler, Sur
     }
 }
 
+// The same of the tiles' own middles, where nothing is known of their surfaces.
+template <class T>
+inline void take_tiles(MapSearch<T>& work, LightSampler<T> const& sampler, Light<T> const& light,
+                       DepthTiles<T> const& tiles) noexcept {
+    ViewVolume<T> const& view = sampler.view;
+    int const count = tiles.width * tiles.height, stride = (count + max_search_samples - 1) / max_search_samples;
+    work.count = 0;
+    for (int i = 0; i < count; ++i) {
+        T const *const nearest = tiles.nearest + i, *const farthest = tiles.farthest + i;
+        if (i % stride != i / stride * 7 % stride || !all_finite(nearest, 1) || !all_finite(farthest, 1)) continue;
+        T const depth = glm::clamp(T(0.5) * *nearest + T(0.5) * *farthest, view.z_near, view.z_far);
+        if (!(*nearest <= *farthest && *nearest <= view.z_far && *farthest >= view.z_near && depth > T(0))) continue;
+        T const x = (T(i % tiles.width) + T(0.5)) / T(tiles.width);
+        T const y = (T(i / tiles.width) + T(0.5)) / T(tiles.height);
+        Vec3<T> const point = point_at(view, view.left + (view.right - view.left) * x,
+                                       view.bottom + (view.top - view.bottom) * y, depth);
+        LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
+        sample.weight = T(1);
+        if (sample.usable) work.sample[static_cast<unsigned>(work.count++)] = sample;
+    }
+}
+
 // Spots have no light's plane.
 template <class T>
 [[nodiscard]] inline Door<T> door_of_choice(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
@@ -276,10 +324,11 @@ template <class T>
 
 // Every point of every tile between its two depths is in one of the maps, with margin_texels to spare on each side, and
 // every caster of the box between it and the sun is in that map. `samples`, a surface each from somewhere in a tile,
-// only weigh what is worth texels; those turned away from the light count for nothing. The same inputs give the same
-// maps. Depths that are no numbers, or not in front of the eye, are no tiles; the last are cut at view.z_far.
+// only weigh what is worth texels; those turned away from the light count for nothing, and where none is left the tiles
+// weigh alike. The same inputs give the same maps. Depths that are no numbers, or not in front of the eye, are no tiles;
+// the last are cut at view.z_far.
 //
-// Not visible, and no fault: no casters, no tiles, no samples. A spot is clamped_option, as are pixels <= 0.
+// Not visible, and no fault: no casters, no tiles. A spot is clamped_option, as are pixels <= 0.
 template <class T>
 [[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light,
                                                Aabb<T> const& casters, SurfacePoint<T> const* samples,
@@ -297,35 +346,46 @@ template <class T>
         light_sampler(eye, in.light, limits.eye_pixels, Vec2<T>(T(tiles.width), T(tiles.height)));
     if (!sampler.usable) return none;
     detail::take_samples(work, sampler, samples, sample_count);
+    if (work.count == 0) detail::take_tiles(work, sampler, in.light, tiles);
     Vec3<T> const right = in_light(sampler.basis, eye.pose.right), up = in_light(sampler.basis, eye.pose.up);
     Vec3<T> const forward = in_light(sampler.basis, eye.pose.forward);
     bool const flat = eye.kind == ViewKind::orthographic;
     Vec2<T> const first(eye.left, eye.bottom);
     Vec2<T> const size((eye.right - eye.left) / T(tiles.width), (eye.top - eye.bottom) / T(tiles.height));
-    auto const cover = [&](ViewPart<T> const& part, auto const& visit) {
+    auto const visit_tile = [&](int x, int y, ViewPart<T> const& part, auto const& visit) {
         constexpr T slack = T(1e-5);  // receivers are drawn by another pass than the depths were
-        for (int y = 0; y < tiles.height; ++y)
-            for (int x = 0; x < tiles.width; ++x) {
-                T const* const nearest = tiles.nearest + y * tiles.width + x;
-                T const* const farthest = tiles.farthest + y * tiles.width + x;
-                if (!all_finite(nearest, 1) || !all_finite(farthest, 1) || !(*nearest <= *farthest)) continue;
-                Vec2<T> const tile = first + size * Vec2<T>(T(x), T(y));
-                Vec3<T> const tile_lo(tile, std::fmax(*nearest * (T(1) - slack), eye.z_near * (T(1) - slack)));
-                Vec3<T> const tile_hi(tile + size, std::fmin(*farthest * (T(1) + slack), eye.z_far * (T(1) + slack)));
-                Vec3<T> const lo = glm::max(tile_lo, part.lo), hi = glm::min(tile_hi, part.hi);
-                if (!(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z && hi.z > T(0))) continue;
-                std::array<Vec3<T>, 8> points;
-                for (unsigned i = 0; i < 8; ++i) {
-                    T const z = (i & 4u) != 0 ? hi.z : lo.z, spread = flat ? T(1) : z;
-                    T const side_x = (i & 1u) != 0 ? hi.x : lo.x, side_y = (i & 2u) != 0 ? hi.y : lo.y;
-                    points[i] = forward * z + (right * side_x + up * side_y) * spread;
-                }
-                visit(points.data(), 8);
-            }
+        T const* const nearest = tiles.nearest + y * tiles.width + x;
+        T const* const farthest = tiles.farthest + y * tiles.width + x;
+        if (!all_finite(nearest, 1) || !all_finite(farthest, 1) || !(*nearest <= *farthest)) return;
+        Vec2<T> const tile = first + size * Vec2<T>(T(x), T(y));
+        Vec3<T> const tile_lo(tile, std::fmax(*nearest * (T(1) - slack), eye.z_near * (T(1) - slack)));
+        Vec3<T> const tile_hi(tile + size, std::fmin(*farthest * (T(1) + slack), eye.z_far * (T(1) + slack)));
+        Vec3<T> const lo = glm::max(tile_lo, part.lo), hi = glm::min(tile_hi, part.hi);
+        if (!(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z && hi.z > T(0))) return;
+        std::array<Vec3<T>, 8> points;
+        for (unsigned i = 0; i < 8; ++i) {
+            T const z = (i & 4u) != 0 ? hi.z : lo.z, spread = flat ? T(1) : z;
+            T const side_x = (i & 1u) != 0 ? hi.x : lo.x, side_y = (i & 2u) != 0 ? hi.y : lo.y;
+            points[i] = forward * z + (right * side_x + up * side_y) * spread;
+        }
+        visit(points.data(), 8);
     };
-    // A sample is its whole tile, to the search.
-    auto const bound = [&](ViewPart<T> const&, int count, Supports<T>& supports) {
-        for (int i = 0; i < count; ++i) add(supports, work.sample[work.list[static_cast<unsigned>(i)]]);
+    auto const cover = [&](ViewPart<T> const& part, auto const& visit) {
+        for (int y = 0; y < tiles.height; ++y)
+            for (int x = 0; x < tiles.width; ++x) visit_tile(x, y, part, visit);
+    };
+    // To the search the tiles of its samples are all of them.
+    auto const bound = [&](ViewPart<T> const& part, int count, Supports<T>& supports) {
+        for (int i = 0; i < count; ++i) {
+            LightSample<T> const& sample = work.sample[work.list[static_cast<unsigned>(i)]];
+            add(supports, sample.place);
+            Vec2<T> const tile = (Vec2<T>(sample.seen) - first) / size;
+            int const x = glm::clamp(static_cast<int>(tile.x), 0, tiles.width - 1);
+            int const y = glm::clamp(static_cast<int>(tile.y), 0, tiles.height - 1);
+            visit_tile(x, y, part, [&](Vec3<T> const* points, int point_count) {
+                for (int k = 0; k < point_count; ++k) add(supports, Vec2<T>(points[k]));
+            });
+        }
     };
     ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
     chosen.faults |= in.faults;

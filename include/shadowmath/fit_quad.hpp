@@ -102,13 +102,18 @@ inline void add(Supports<T>& supports, LightSample<T> const& sample) noexcept {
     ++supports.count;
 }
 
-// The side that touches the samples in direction i, moved out by what rounding may take.
+// Between the four sides that touch the samples in these directions (left, right, bottom, top; whole turns never
+// matter), moved out by what rounding may take.
 template <class T>
-[[nodiscard]] inline Vec3<T> side_at(Supports<T> const& supports, int i) noexcept {
-    Vec2<T> const& d = supports.direction[static_cast<unsigned>(i)];
-    // Coordinates of the frame are about 1 at the samples' ends.
-    T const reach = supports.reach[static_cast<unsigned>(i)] + T(1e-4) * std::fmax(T(1), std::abs(supports.reach[static_cast<unsigned>(i)]));
-    return Vec3<T>(-d, reach + glm::dot(d, supports.frame.middle));
+[[nodiscard]] inline Quad<T> quad_at(Supports<T> const& supports, std::array<int, 4> const& direction) noexcept {
+    QuadSides<T> sides;
+    for (unsigned k = 0; k < 4; ++k) {
+        auto const i = static_cast<unsigned>(direction[k] + 4 * quad_directions) % unsigned(quad_directions);
+        // Coordinates of the frame are about 1 at the samples' ends.
+        T const reach = supports.reach[i], slack = T(1e-4) * std::fmax(T(1), std::abs(reach));
+        sides[k] = Vec3<T>(-supports.direction[i], reach + slack);
+    }
+    return moved(quad_between(sides), supports.frame.middle);
 }
 
 template <class T>
@@ -134,14 +139,9 @@ template <class T>
 }
 
 template <class T>
-inline void consider(QuadFit<T>& best, Supports<T> const& supports, std::array<int, 4> direction, T usable_texels,
+inline void consider(QuadFit<T>& best, Supports<T> const& supports, std::array<int, 4> const& direction, T usable_texels,
                      LightSample<T> const* samples, std::uint16_t const* list, int count, int stride) noexcept {
-    QuadSides<T> sides;
-    for (unsigned k = 0; k < 4; ++k) {
-        direction[k] = (direction[k] + quad_directions) % quad_directions;
-        sides[k] = side_at(supports, direction[k]);
-    }
-    Quad<T> const quad = quad_between(sides);
+    Quad<T> const quad = quad_at(supports, direction);
     if (!quad.visible) return;
     // Of no samples the smallest is as good as any.
     T const price = count > 0 ? price_in(quad, usable_texels, samples, list, count, stride) : area(quad);

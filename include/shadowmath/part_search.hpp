@@ -45,7 +45,7 @@ struct ViewPart {
 };
 
 template <class T>
-[[nodiscard]] inline bool holds(ViewPart<T> const& part, Vec3<T> const& seen) noexcept {
+[[nodiscard]] inline bool is_in(ViewPart<T> const& part, Vec3<T> const& seen) noexcept {
     return part.lo.x <= seen.x && seen.x < part.hi.x && part.lo.y <= seen.y && seen.y < part.hi.y &&
            part.lo.z <= seen.z && seen.z < part.hi.z;
 }
@@ -82,7 +82,7 @@ struct PartSearch {
     int gather(ViewPart<T> const& part) noexcept {
         unsigned n = 0;
         for (int i = 0; i < work.count; ++i)
-            if (holds(part, work.sample[static_cast<unsigned>(i)].seen)) work.list[n++] = static_cast<std::uint16_t>(i);
+            if (is_in(part, work.sample[static_cast<unsigned>(i)].seen)) work.list[n++] = static_cast<std::uint16_t>(i);
         return static_cast<int>(n);
     }
 
@@ -119,7 +119,7 @@ template <class T>
     T lo = std::numeric_limits<T>::max(), hi = std::numeric_limits<T>::lowest();
     for (int i = 0; i < work.count; ++i) {
         Vec3<T> const& seen = work.sample[static_cast<unsigned>(i)].seen;
-        if (!holds(part, seen)) continue;
+        if (!is_in(part, seen)) continue;
         lo = std::fmin(lo, seen[axis]);
         hi = std::fmax(hi, seen[axis]);
     }

@@ -96,6 +96,15 @@ template <class T>
     return quad;
 }
 
+// The same quadrilateral elsewhere. Sides are best given about their own middle: far from it their minors are all
+// rounding.
+template <class T>
+[[nodiscard]] inline Quad<T> moved(Quad<T> quad, Vec2<T> const& offset) noexcept {
+    for (Vec3<T>* const row : {&quad.x, &quad.y, &quad.w}) row->z -= row->x * offset.x + row->y * offset.y;
+    for (Vec2<T>& corner : quad.corner) corner += offset;
+    return quad;
+}
+
 // Square metres of the light's plane.
 template <class T>
 [[nodiscard]] inline T area(Quad<T> const& quad) noexcept {
@@ -105,7 +114,7 @@ template <class T>
 
 // True inside and on the sides.
 template <class T>
-[[nodiscard]] inline bool holds(Quad<T> const& quad, Vec2<T> const& place) noexcept {
+[[nodiscard]] inline bool is_in(Quad<T> const& quad, Vec2<T> const& place) noexcept {
     Vec3<T> const p(place, T(1));
     T const w = glm::dot(quad.w, p);
     return w >= quad.w_least * T(0.999) && std::abs(glm::dot(quad.x, p)) <= w && std::abs(glm::dot(quad.y, p)) <= w;
