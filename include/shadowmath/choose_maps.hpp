@@ -230,12 +230,16 @@ template <class T, class Bound, class Cover>
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.
     std::array<Extent<T>, max_chosen_maps> depth;
-    auto const reach = [&](Vec3<T> const* points, int count) {
-        int const holder = stack.holder(points, count);
-        for (int i = 0; i < count && holder >= 0; ++i) depth[static_cast<unsigned>(holder)].add(points[i].z);
+    auto const reach = [&](ViewPart<T> const& part, int own) {
+        cover(part, [&](Vec3<T> const* points, int count) {
+            int const holder = stack.holder(points, count);
+            // A side touches its points, so rounding may put one outside: it is its own part's all the same.
+            int const serving = holder < 0 ? own : holder;
+            for (int i = 0; i < count && serving >= 0; ++i) depth[static_cast<unsigned>(serving)].add(points[i].z);
+        });
     };
-    for (int k = 0; k < stack.count; ++k) cover(stack.part[static_cast<unsigned>(k)], reach);
-    for (int k = 0; k < stack.held_count; ++k) cover(stack.held[static_cast<unsigned>(k)], reach);
+    for (int k = 0; k < stack.count; ++k) reach(stack.part[static_cast<unsigned>(k)], k);
+    for (int k = 0; k < stack.held_count; ++k) reach(stack.held[static_cast<unsigned>(k)], -1);
     for (int k = 0; k < stack.count; ++k) {
         Extent<T> const& along = depth[static_cast<unsigned>(k)];
         if (!(along.lo <= along.hi)) continue;
