@@ -217,6 +217,23 @@ template <class T>
                     spanned_by_texel(canonical, 1, map_size, change_per_metre));
 }
 
+// How much longer a texel is than its two sides are apart: 1 where the map's axes cross at a right angle everywhere.
+// Along x, with y held, a plane's depth changes by that much more than the change of x alone tells. The worst of a
+// sun's map is at a corner, since a convex function over a positive affine one has no maximum inside.
+template <class T>
+[[nodiscard]] inline T worst_shear(Mat4<T> const& canonical) noexcept {
+    Vec3<T> const x_row(row(canonical, 0)), y_row(row(canonical, 1)), w_row(row(canonical, 3));
+    T worst = T(1);
+    for (T const x : {T(-1), T(1)})
+        for (T const y : {T(-1), T(1)}) {
+            Vec3<T> const along_x = safe_normalize(x_row - w_row * x).direction;
+            Vec3<T> const along_y = safe_normalize(y_row - w_row * y).direction;
+            T const sine = glm::length(glm::cross(along_x, along_y));
+            worst = glm::max(worst, bounded_quotient(T(1), sine, T(1e3)));
+        }
+    return worst;
+}
+
 // 1 / w on the axis of a spot's map where depth is 0 and where it is 1: on the axis depth = A - k / w.
 template <class T>
 struct InverseW {
@@ -298,6 +315,7 @@ template <class T>
         T const at_near_end = glm::length(lean), at_far_end = glm::length(lean - w_row);
         T const across = at_near_end > at_far_end ? at_near_end : at_far_end;
         MapBias<T> bias = detail::bias_of_kernel(canonical, map_size, gain, across, options);
+        bias.slope_limit *= detail::worst_shear(canonical);
         // A texel in metres grows as w and depth a metre falls as 1 / w: in a bias in texels the two cancel.
         bias.constant += flat_texels * detail::flattest_texel(canonical, map_size, gain);
         bias.per_inverse_w += gain * metres;

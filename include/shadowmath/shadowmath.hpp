@@ -69,6 +69,14 @@
 #include <shadowmath/choose.hpp>
 #include <shadowmath/judge.hpp>
 
+// Which maps.
+#include <shadowmath/box_samples.hpp>
+#include <shadowmath/choose_maps.hpp>
+#include <shadowmath/fit_quad.hpp>
+#include <shadowmath/light_samples.hpp>
+#include <shadowmath/part_search.hpp>
+#include <shadowmath/quad_map.hpp>
+
 // The same for what is seen, pixel by pixel.
 #include <shadowmath/sample_bounds.hpp>
 #include <shadowmath/sample_depths.hpp>

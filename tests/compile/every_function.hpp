@@ -71,6 +71,17 @@ int every_overloaded_function() noexcept {
     HalfSpaces<T> const swept = swept_to_light(convex_body(box), Vec4<T>(T(0), T(-1), T(0), T(0)));
     count += may_meet(swept, box) && clipped(clipped(convex_body(box), swept), Vec4<T>(T(1))).edge_count > 0;
     for_each_vertex(convex_body(corners(box)), [&count](Vec3<T> const& vertex) { count += vertex.x > T(0); });
+    Quad<T> const quad = quad_between(QuadSides<T>{}, T(8), T(3));
+    Supports<T> supports = no_supports(SampleFrame<T>{});
+    add(supports, Vec2<T>(T(0)));
+    add(supports, LightSample<T>{});
+    count += is_in(quad, Vec2<T>(T(0))) && is_in(ViewPart<T>{}, point) && area(moved(quad, Vec2<T>(T(1)))) > T(0);
+    static MapSearch<T> search;
+    SurfacePoint<T> const surface;
+    Light<T> const sun;
+    count += choose_maps(view, sun, box, &surface, 1, DepthTiles<T>{}, MapLimits<T>{}, search).count;
+    count += choose_maps(view, sun, box, &box, 1, MapLimits<T>{}, search).count;
+    count += describe(MapShape::warp) != nullptr;
     SampleDepths<T> depths = no_depths(T(1), T(10));
     add(depths, T(2));
     add(depths, depths);
@@ -107,6 +118,8 @@ int every_function() noexcept {
     count += keep(&bounds_of<T>);
     count += keep(&least_squares_plane<T>, &median_plane<T>, &weighted_median_plane<T>, &plane_distortion<T>,
                   &choose_plane<T>, &worth_of<T>, &still_good<T>);
+    count += keep(&light_sampler<T>, &light_sample<T>, &depths_in_box<T>, &guesses_in_boxes<T>, &gain_at<T>,
+                  &quad_map<T>, &price_of<T>, &major_at<T>, &quad_at<T>, &frame_of<T>, &fit_quad<T>);
     count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
     count += keep(&clipmap<T>, &pixel_metres<T>, &page_at<T>, &holds<T>, &page_for<T>);

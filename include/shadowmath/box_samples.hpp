@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+//
+// What the eye may see, where nothing but boxes is known: guesses at surfaces inside them, for choices that weigh what
+// is seen where. With a depth buffer at hand use that instead; its surfaces are no guesses.
+//
+// Each of a few hundred rays meets some boxes. What they hold is not known, so a ray is taken to end in each box that
+// it meets with even odds, and in the last one for certain: there is a ground. A surface in a box is as likely in its
+// nearer as in its farther half. Of a box that the eye is in, it sees the room, and its far end where no other box is
+// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is
+// weighed is perspective aliasing alone.
+#pragma once
+
+#include <shadowmath/bounds.hpp>
+#include <shadowmath/config.hpp>
+#include <shadowmath/finite.hpp>
+#include <shadowmath/judge.hpp>
+#include <shadowmath/light.hpp>
+#include <shadowmath/light_samples.hpp>
+#include <shadowmath/view_volume.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int guess_rays_x = 20;
+inline constexpr int guess_rays_y = 12;
+
+// A texel is so many times longer on the surfaces that are really there, in the mean, than on one that leans as the
+// neutral normal does.
+template <class T>
+inline constexpr T leaning_surfaces = T(3);
+
+// Where a ray of the view is inside a box.
+template <class T>
+struct DepthSpan {
+    T first = T(0);  // eye depth
+    T last = T(-1);  // below first: it misses
+};
+
+// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
+template <class T>
+[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
+                                                Aabb<T> const& box) noexcept {
+    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
+    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
+    T first = T(0), last = T(1);  // of the way
+    for (int axis = 0; axis < 3; ++axis) {
+        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
+        if (std::abs(way[axis]) > T(0)) {
+            T const a = to_lo / way[axis], b = to_hi / way[axis];
+            first = std::fmax(first, std::fmin(a, b));
+            last = std::fmin(last, std::fmax(a, b));
+        } else if (to_lo > T(0) || to_hi < T(0)) {
+            return {};
+        }
+    }
+    T const range = view.z_far - view.z_near;
+    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
+}
+
+// Fills `into` with at most `capacity` weighted guesses and returns how many: two in each of the first four boxes that a
+// ray meets.
+template <class T>
+[[nodiscard]] inline int guesses_in_boxes(LightSampler<T> const& sampler, Light<T> const& light, Aabb<T> const* boxes,
+                                          int box_count, LightSample<T>* into, int capacity) noexcept {
+    constexpr int most = 4, rays_x = guess_rays_x, rays_y = guess_rays_y;
+    int count = 0;
+    ViewVolume<T> const& view = sampler.view;
+    for (int ray = 0; ray < rays_x * rays_y; ++ray) {
+        T const part_x = (T(ray % rays_x) + T(0.5)) / T(rays_x), part_y = (T(ray / rays_x) + T(0.5)) / T(rays_y);
+        T const side_x = view.left + (view.right - view.left) * part_x;
+        T const side_y = view.bottom + (view.top - view.bottom) * part_y;
+        std::array<DepthSpan<T>, most> span;  // by their first depths
+        DepthSpan<T> around;                   // of the boxes that the eye is in, the one that ends last
+        int met = 0;
+        for (int b = 0; b < box_count; ++b) {
+            if (!all_finite(boxes[b]) || is_empty(boxes[b])) continue;
+            DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, boxes[b]);
+            if (!(inside.first <= inside.last)) continue;
+            if (!(inside.first > view.z_near)) {
+                if (inside.last > around.last) around = inside;
+                continue;
+            }
+            if (met == most && !(inside.first < span[most - 1].first)) continue;
+            int at = met < most ? met++ : most - 1;
+            for (; at > 0 && span[static_cast<unsigned>(at - 1)].first > inside.first; --at)
+                span[static_cast<unsigned>(at)] = span[static_cast<unsigned>(at - 1)];
+            span[static_cast<unsigned>(at)] = inside;
+        }
+        auto const guess = [&](DepthSpan<T> const& in, T part, T weight) {
+            if (count == capacity) return;
+            Vec3<T> const point = point_at(view, side_x, side_y, in.first + (in.last - in.first) * part);
+            LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
+            sample.weight = weight;
+            if (sample.usable) into[count++] = sample;
+        };
+        T left = T(1);
+        for (int i = 0; i < met; ++i) {
+            T const here = i + 1 < met ? T(0.5) * left : left;
+            left -= here;
+            guess(span[static_cast<unsigned>(i)], T(0.25), T(0.5) * here);
+            guess(span[static_cast<unsigned>(i)], T(0.75), T(0.5) * here);
+        }
+        if (met == 0 && around.first <= around.last) {
+            guess(around, T(0.5), T(0.5));
+            guess(around, T(0.9), T(0.5));
+        }
+    }
+    return count;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
