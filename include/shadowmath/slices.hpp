@@ -159,8 +159,8 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
 // clip_from_world[i] is the map of slice i: the smallest light-space box around it, and no depth but the slice's own.
 // Each corner of each slice is inside. `border` is the part of the map's side that is kept free on each of the four
 // sides, for filters: 2.0f / 2048 for two texels; [0, 0.49]. Writes splits.count matrices and says true; or nowhere()
-// and false, where a number is not finite or beyond 2^60 m, an axis is no axis, a side is crossed, or the border outside
-// its range.
+// and false, where a number is not finite or beyond 2^60 m, an axis is no axis, a side is crossed, or the border
+// outside its range.
 // NOTE: inlined, as what it is given has mostly just been made.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool fit_slice_boxes(ViewVolume<T> const& view, LightBasis<T> const& basis,
