@@ -42,7 +42,7 @@ for picture in "$fresh"/images/*; do
 done | report 'not what is drawn today (scripts/docs --update)'
 sed -n '/^<!-- written by docs\/programs\/accuracy/,/^<!-- end -->/{//!p}' docs/accuracy.md |
     cmp -s - "$fresh/accuracy" || printf 'docs/accuracy.md\n' | report 'not the table of today (scripts/docs --update)'
-find docs/images -size +150k -printf '%p\n' | report 'larger than 150 kB'
+find "$fresh/images" -size +150k -printf '%f\n' | report 'larger than 150 kB'
 for image in docs/images/*; do
     grep -qF -- "images/${image##*/}" "${texts[@]}" || printf '%s\n' "$image"
 done | report 'shown nowhere'
@@ -76,7 +76,7 @@ done | report 'on no page'
 grep -rhoP '^(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP)\(\K\w+, *\w+' tests examples --include='*.cpp' |
     sed 's/, */./' | sort -u > "$fresh/tests"
 grep -noP '`\K[A-Z]\w+\.[A-Z]\w+(?=`)' "${pages[@]}" | while IFS=: read -r page line name; do
-    grep -qxF -- "$name" "$fresh/tests" || printf '%s:%s: %s\n' "$page" "$line" "$name"
+    grep -qxF -- "$name" "$fresh/tests" || grep -rqF "NAME ${name%%_*}" --include=CMakeLists.txt examples tests docs || printf '%s:%s: %s\n' "$page" "$line" "$name"
 done | report 'no such test'
 
 # The code compiles: each block a function, its includes before all of them.
