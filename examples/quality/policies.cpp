@@ -54,7 +54,7 @@ Aabb<double> box_of(backend::Object const& object) {
 
 Camera camera_of(Input const& in) {
     Pose<double> const& pose = in.seen.pose;
-    return {pose.position, pose.right,     pose.up,         pose.forward,
+    return {pose.position, pose.right,  pose.up,        pose.forward,
             in.seen.right, in.seen.top, in.seen.z_near, in.seen.z_far};
 }
 
@@ -103,8 +103,8 @@ Fitted chosen_options(Input const& in) {
     limits.goal = Goal::least_mean;
     Samples<double> const samples = samples_in(in.seen, in.light, in.receivers);
     CascadeOptions<double> given = cascade_options(CascadeFit::tight);
-    Choice<double> const choice = choose(in.seen, in.light, in.casters, in.receivers, samples.at.data(), samples.count,
-                                         given, limits);
+    Choice<double> const choice =
+        choose(in.seen, in.light, in.casters, in.receivers, samples.at.data(), samples.count, given, limits);
     CascadeOptions<double> options = choice.options;
     options.map_size = map_size;
     return with(fit_cascades(in.seen, in.light, in.casters, in.receivers, options));
@@ -114,8 +114,7 @@ Fitted sampled(Input const& in, SampleSplits kind) {
     SampleDepths<double> depths = no_depths(in.seen.z_near, in.seen.z_far);
     for (auto const& sample : in.coarse.points) add(depths, eye_depth(in.seen, sample.point));
     SampleBounds<double> bounds = no_bounds(sample_splits(depths, map_count, kind, 1.25), 0.0);
-    SampleRays<double> const rays =
-        sample_rays(in.eye, in.light, in.coarse.extent.width, in.coarse.extent.height);
+    SampleRays<double> const rays = sample_rays(in.eye, in.light, in.coarse.extent.width, in.coarse.extent.height);
     Pose<double> const& pose = in.eye.pose;
     for (auto const& sample : in.coarse.points) {
         glm::dvec3 const p = sample.point - pose.position;
@@ -142,8 +141,8 @@ Fitted plane_first(Input const& in) {
     options.map_size = map_size;
     options.margin_texels = margin_texels;
     Fitted fitted;
-    fitted.maps.push_back({view_dependent_map(in.seen, in.light, plane.plane, in.casters, in.receivers, options, clip),
-                           in.seen.z_far});
+    fitted.maps.push_back(
+        {view_dependent_map(in.seen, in.light, plane.plane, in.casters, in.receivers, options, clip), in.seen.z_far});
     CascadeOptions<double> behind = cascade_options(CascadeFit::focus);
     behind.count = map_count - 1;
     for (FittedMap const& map : with(fit_cascades(in.seen, in.light, in.casters, in.receivers, behind)).maps)
@@ -182,18 +181,17 @@ Fitted with(Input const& in, ChosenMaps<double> const& chosen) {
 Fitted chosen_from_depth(Input const& in) {
     static MapSearch<double> work;
     MapLimits<double> const limits = limits_of(in);
-    ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.coarse.points.data(),
-                                                  int(in.coarse.points.size()),
-                                                  {in.coarse.nearest.data(), in.coarse.farthest.data(),
-                                                   in.coarse.extent.width, in.coarse.extent.height},
-                                                  limits, work);
+    ChosenMaps<double> const chosen = choose_maps(
+        in.seen, in.light, in.casters, in.coarse.points.data(), int(in.coarse.points.size()),
+        {in.coarse.nearest.data(), in.coarse.farthest.data(), in.coarse.extent.width, in.coarse.extent.height}, limits,
+        work);
     return with(in, chosen);
 }
 
 Fitted chosen_from_boxes(Input const& in) {
     static MapSearch<double> work;
-    return with(in, choose_maps(in.seen, in.light, in.casters, in.receiver_boxes.data(),
-                                int(in.receiver_boxes.size()), limits_of(in), work));
+    return with(in, choose_maps(in.seen, in.light, in.casters, in.receiver_boxes.data(), int(in.receiver_boxes.size()),
+                                limits_of(in), work));
 }
 
 struct Entry {
@@ -275,7 +273,8 @@ Coarse coarse_of(backend::Frame const& frame, View const& view) {
             glm::dvec3 const point(p.x, p.y, p.z), normal(n.x, n.y, n.z);
             double const depth = glm::dot(view.forward, point - view.eye);
             if (depth > view.shadow_distance) continue;
-            int const i = tile_of(x, extent.width, coarse.extent.width), j = tile_of(y, extent.height, coarse.extent.height);
+            int const i = tile_of(x, extent.width, coarse.extent.width),
+                      j = tile_of(y, extent.height, coarse.extent.height);
             auto const tile = std::size_t(j * coarse.extent.width + i);
             if (glm::dot(normal, view.light_travel) < 0.0) {
                 coarse.nearest[tile] = std::min(coarse.nearest[tile], depth);
@@ -295,8 +294,9 @@ Made make_maps(Policy const& policy, backend::Scene const& scene, View const& vi
     made.maps.frame = gallery::unshadowed(view, picture);
     made.maps.frame.map_size = float(map_size);
     made.maps.frame.choice = policy.by_depth ? backend::MapChoice::by_depth : backend::MapChoice::by_map;
-    Input in{scene, eye_of(view, picture), eye_of(view, picture), directional(view.light_travel), {}, {}, {}, {},
-             picture, coarse, view.forward};
+    Input in{
+        scene,  eye_of(view, picture), eye_of(view, picture), directional(view.light_travel), {}, {}, {}, {}, picture,
+        coarse, view.forward};
     in.seen.z_far = view.shadow_distance;
     for (auto const& object : scene.objects) {
         if (object.casts) in.caster_boxes.push_back(box_of(object));
@@ -308,8 +308,7 @@ Made make_maps(Policy const& policy, backend::Scene const& scene, View const& vi
         if (entry.policy.id != policy.id) continue;
         auto const begin = std::chrono::steady_clock::now();
         Fitted const fitted = entry.make(in);
-        made.milliseconds =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        made.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
         for (FittedMap const& map : fitted.maps) add(made.maps, in, map);
         made.maps.note = fitted.note;
         return made;

@@ -27,8 +27,8 @@ struct Policy {
     std::string id;     // a file-name-safe word
     std::string title;  // for people
     Family family = Family::library;
-    bool by_depth = false;     // maps are chosen by eye depth; else the first that holds the point
-    bool sees_depth = false;   // is given the coarse depth buffer
+    bool by_depth = false;    // maps are chosen by eye depth; else the first that holds the point
+    bool sees_depth = false;  // is given the coarse depth buffer
 };
 
 [[nodiscard]] std::vector<Policy> const& policies();

@@ -240,8 +240,8 @@ RecipeMaps lispsm(Camera const& camera, glm::dvec3 travel, Box const& scene, int
         glm::dvec3 lo(std::numeric_limits<double>::max()), hi(std::numeric_limits<double>::lowest());
         for (glm::dvec3 const& p : body) {
             glm::dvec4 const h(p, 1.0);
-            glm::dvec3 const ndc = glm::dvec3(glm::dot(across, h), glm::dot(along, h), glm::dot(depth, h)) /
-                                   glm::dot(w, h);
+            glm::dvec3 const ndc =
+                glm::dvec3(glm::dot(across, h), glm::dot(along, h), glm::dot(depth, h)) / glm::dot(w, h);
             lo = glm::min(lo, ndc);
             hi = glm::max(hi, ndc);
         }

@@ -23,13 +23,14 @@ std::string formatted(char const* format, Values... values) {
 }  // namespace
 
 std::string table(Results const& results) {
-    std::string text = formatted("%-34s %7s %7s %7s %6s | %6s %6s %6s | %5s %5s %6s %8s\n", "% of off-edge pixels wrong",
-                                 "mean", "geom.", "worst", "/folk", "px", "p95", "used%", "ok%", "all%", "dark", "ms");
+    std::string text =
+        formatted("%-34s %7s %7s %7s %6s | %6s %6s %6s | %5s %5s %6s %8s\n", "% of off-edge pixels wrong", "mean",
+                  "geom.", "worst", "/folk", "px", "p95", "used%", "ok%", "all%", "dark", "ms");
     for (Summary const& s : summaries(results))
         text += formatted("%-34s %7.4f %7.4f %7.3f %6.3f | %6.3f %6.2f %6.1f | %5.1f %5.1f %6ld %8.2f\n",
                           s.policy.title.c_str(), 100.0 * s.mean, 100.0 * s.geometric_mean, 100.0 * s.worst,
-                          s.of_best_folk, s.footprint_mean, s.footprint_p95, 100.0 * s.texels_used,
-                          100.0 * s.not_worse, 100.0 * s.not_worse_than_any, s.dark_unmapped, s.fit_milliseconds);
+                          s.of_best_folk, s.footprint_mean, s.footprint_p95, 100.0 * s.texels_used, 100.0 * s.not_worse,
+                          100.0 * s.not_worse_than_any, s.dark_unmapped, s.fit_milliseconds);
     text += formatted("%zu views\n", results.views.size());
     for (std::string const& what : results.absent) text += "ABSENT, not studied: " + what + "\n";
     return text;
@@ -121,8 +122,8 @@ std::string bars_of(std::vector<Summary> const& all) {
     double most = 1e-12;
     for (Summary const& s : all) most = std::max(most, s.mean);
     double const height = 22.0 * double(all.size());
-    std::string text = formatted("<svg viewBox=\"0 0 900 %.0f\" role=\"img\" aria-label=\"mean share of wrong pixels\">",
-                                 height);
+    std::string text =
+        formatted("<svg viewBox=\"0 0 900 %.0f\" role=\"img\" aria-label=\"mean share of wrong pixels\">", height);
     double y = 0.0;
     for (Summary const& s : all) {
         text += formatted("<text x=\"260\" y=\"%.0f\" text-anchor=\"end\">%s</text>"
@@ -146,7 +147,9 @@ std::string heat_maps_of(Results const& results) {
     for (ViewResult const& view : results.views)
         if (view.pictures.size() > 1) views.push_back(&view);
     std::ranges::stable_sort(views, [&](ViewResult const* a, ViewResult const* b) {
-        auto const gain = [&](ViewResult const& v) { return wrong(v, "folk-focus").wrong - wrong(v, "chosen-depth").wrong; };
+        auto const gain = [&](ViewResult const& v) {
+            return wrong(v, "folk-focus").wrong - wrong(v, "chosen-depth").wrong;
+        };
         return gain(*a) > gain(*b);
     });
     if (views.size() > 8) views.resize(8);
@@ -156,7 +159,8 @@ std::string heat_maps_of(Results const& results) {
         text += "<figure><figcaption><b>" + gallery::escaped(view->scene + ", " + view->view) + "</b>";
         for (auto const& [policy, file] : view->pictures) {
             Score const score = wrong(*view, policy);
-            text += formatted("; %s: %.3f %% wrong, %.2f px", policy.c_str(), 100.0 * score.wrong, score.footprint_mean);
+            text +=
+                formatted("; %s: %.3f %% wrong, %.2f px", policy.c_str(), 100.0 * score.wrong, score.footprint_mean);
         }
         text += "</figcaption>";
         for (auto const& [policy, file] : view->pictures)
@@ -172,12 +176,14 @@ std::string heat_maps_of(Results const& results) {
 std::string page(Settings const& settings, Results const& results) {
     std::vector<Summary> const all = summaries(results);
     std::string text = page_head;
-    text += formatted("<h1>Picture truth at an equal budget</h1><p>%zu views of %d &times; %d pixels; %d maps of %d "
-                      "&times; %d texels for everybody, one bias rule, one filter (3 &times; 3). A pixel is wrong when it "
-                      "is on the other side of the light than ray tracing says, and no true edge is within a pixel and a "
-                      "quarter. Recipes choose a map by eye depth, everything else by what holds the point.</p>\n",
-                      results.views.size(), settings.extent.width, settings.extent.height, map_count, map_size, map_size);
-    for (std::string const& what : results.absent) text += "<p><b>Absent, not studied:</b> " + gallery::escaped(what) + "</p>";
+    text +=
+        formatted("<h1>Picture truth at an equal budget</h1><p>%zu views of %d &times; %d pixels; %d maps of %d "
+                  "&times; %d texels for everybody, one bias rule, one filter (3 &times; 3). A pixel is wrong when it "
+                  "is on the other side of the light than ray tracing says, and no true edge is within a pixel and a "
+                  "quarter. Recipes choose a map by eye depth, everything else by what holds the point.</p>\n",
+                  results.views.size(), settings.extent.width, settings.extent.height, map_count, map_size, map_size);
+    for (std::string const& what : results.absent)
+        text += "<p><b>Absent, not studied:</b> " + gallery::escaped(what) + "</p>";
     return text + bars_of(all) + rows_of(all) + heat_maps_of(results) + "</body></html>\n";
 }
 

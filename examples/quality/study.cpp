@@ -28,9 +28,9 @@ using oracle::Truth;
 // What is kept of a truth: two bytes a pixel, behind what it is the truth of.
 std::string identity(scenes::View const& view, backend::Extent extent) {
     std::string text = "truth 1 " + std::to_string(extent.width) + "x" + std::to_string(extent.height);
-    for (double const number : {view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z,
-                                view.light_travel.x, view.light_travel.y, view.light_travel.z, view.shadow_distance,
-                                view.fov_y_radians})
+    for (double const number :
+         {view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, view.light_travel.x,
+          view.light_travel.y, view.light_travel.z, view.shadow_distance, view.fov_y_radians})
         text += " " + std::to_string(number);
     return text + "\n";
 }

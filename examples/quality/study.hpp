@@ -39,7 +39,7 @@ struct Score {
 struct ViewResult {
     std::string scene, view;
     double shadow_distance = 0.0;
-    std::vector<Score> scores;                           // in the order of the policies
+    std::vector<Score> scores;                                  // in the order of the policies
     std::vector<std::pair<std::string, std::string>> pictures;  // policy, file
 };
 
@@ -58,13 +58,13 @@ struct Summary {
     Policy policy;
     double mean = 0.0, geometric_mean = 0.0, worst = 0.0;  // of wrong; geometric: nothing wrong counts half a pixel
     std::string worst_view;
-    double of_best_folk = 0.0;                        // mean over the least mean of a folk recipe
+    double of_best_folk = 0.0;                         // mean over the least mean of a folk recipe
     double footprint_mean = 0.0, footprint_p95 = 0.0;  // mean of both over the views
     double texels_used = 0.0;
     double not_worse = 0.0;           // share of views in which it is not worse than the folk recipe of the least mean
     double not_worse_than_any = 0.0;  // and than the best folk recipe of each view
     long dark_unmapped = 0;
-    double fit_milliseconds = 0.0;    // mean
+    double fit_milliseconds = 0.0;  // mean
 };
 
 [[nodiscard]] std::vector<Summary> summaries(Results const& results);

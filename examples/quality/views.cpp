@@ -22,13 +22,13 @@ struct Aspect {
 };
 
 constexpr Aspect of_town[] = {
-    {"street", 88, Sun::aside, 180}, {"street", 60, Sun::ahead, 120},  {"street", 35, Sun::aside, 180},
+    {"street", 88, Sun::aside, 180},  {"street", 60, Sun::ahead, 120}, {"street", 35, Sun::aside, 180},
     {"street", 20, Sun::behind, 250}, {"street", 8, Sun::ahead, 180},  {"street", 3, Sun::aside, 150},
-    {"square", 45, Sun::aside, 150}, {"square", 15, Sun::ahead, 100},  {"square", 70, Sun::behind, 400},
-    {"hill", 88, Sun::aside, 800},   {"hill", 35, Sun::ahead, 600},    {"hill", 20, Sun::aside, 800},
-    {"hill", 10, Sun::behind, 600},  {"hill", 3, Sun::ahead, 400},     {"down", 60, Sun::aside, 200},
-    {"down", 25, Sun::behind, 200},  {"down", 88, Sun::aside, 150},    {"up", 35, Sun::aside, 160},
-    {"up", 12, Sun::ahead, 160},     {"up", 70, Sun::behind, 100},     {"side", 30, Sun::ahead, 300},
+    {"square", 45, Sun::aside, 150},  {"square", 15, Sun::ahead, 100}, {"square", 70, Sun::behind, 400},
+    {"hill", 88, Sun::aside, 800},    {"hill", 35, Sun::ahead, 600},   {"hill", 20, Sun::aside, 800},
+    {"hill", 10, Sun::behind, 600},   {"hill", 3, Sun::ahead, 400},    {"down", 60, Sun::aside, 200},
+    {"down", 25, Sun::behind, 200},   {"down", 88, Sun::aside, 150},   {"up", 35, Sun::aside, 160},
+    {"up", 12, Sun::ahead, 160},      {"up", 70, Sun::behind, 100},    {"side", 30, Sun::ahead, 300},
 };
 constexpr Aspect of_colonnade[] = {
     {"street", 35, Sun::aside, 110}, {"street", 88, Sun::aside, 110}, {"street", 12, Sun::ahead, 80},

@@ -60,8 +60,8 @@ template <class T>
     return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
 }
 
-// Fills `into` with at most `capacity` weighted guesses and returns how many: two in each of the first four boxes that a
-// ray meets.
+// Fills `into` with at most `capacity` weighted guesses and returns how many: two in each of the first four boxes that
+// a ray meets.
 template <class T>
 [[nodiscard]] inline int guesses_in_boxes(LightSampler<T> const& sampler, Light<T> const& light, Aabb<T> const* boxes,
                                           int box_count, LightSample<T>* into, int capacity) noexcept {
@@ -73,7 +73,7 @@ template <class T>
         T const side_x = view.left + (view.right - view.left) * part_x;
         T const side_y = view.bottom + (view.top - view.bottom) * part_y;
         std::array<DepthSpan<T>, most> span;  // by their first depths
-        DepthSpan<T> around;                   // of the boxes that the eye is in, the one that ends last
+        DepthSpan<T> around;                  // of the boxes that the eye is in, the one that ends last
         int met = 0;
         for (int b = 0; b < box_count; ++b) {
             if (!all_finite(boxes[b]) || is_empty(boxes[b])) continue;

@@ -85,19 +85,19 @@ struct ChosenMap {
     ShadowMap<T> map;
     ViewPart<T> part;  // of the view that it was made for; it serves whatever else it holds, too
     MapShape shape = MapShape::rectangle;
-    T growth = T(1);   // how many times longer a texel is at the coarse end than at the fine one
-    int samples = 0;   // of the search, that it serves
-    T mean = T(0);     // of their footprints, eye pixels a texel along its longer axis
+    T growth = T(1);  // how many times longer a texel is at the coarse end than at the fine one
+    int samples = 0;  // of the search, that it serves
+    T mean = T(0);    // of their footprints, eye pixels a texel along its longer axis
     T worst = T(0);
 };
 
 template <class T>
 struct ChosenMaps {
     std::array<ChosenMap<T>, max_chosen_maps> at;
-    int count = 0;      // 0: nothing to draw, everything lit
-    int tried = 0;      // fits
-    T one_map = T(0);   // the price of a sample (price_of) with a single map of this size
-    T price = T(0);     // and with those chosen
+    int count = 0;     // 0: nothing to draw, everything lit
+    int tried = 0;     // fits
+    T one_map = T(0);  // the price of a sample (price_of) with a single map of this size
+    T price = T(0);    // and with those chosen
     Faults faults;
 
     [[nodiscard]] ChosenMap<T> const* begin() const noexcept { return at.data(); }
@@ -136,8 +136,7 @@ struct QuadStack {
     [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
         for (int k = 0; k < count; ++k) {
             int inside = 0;
-            while (inside < point_count && is_in(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside])))
-                ++inside;
+            while (inside < point_count && is_in(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside]))) ++inside;
             if (inside == point_count) return k;
         }
         return -1;
@@ -175,8 +174,8 @@ template <class T, class Bound, class Cover>
             if (stack.holder(points, count) >= 0) return;
             for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
         });
-        QuadFit<T> const fit = fit_quad(supports, work.sample.data(), work.list.data(), static_cast<int>(own),
-                                        search.usable_texels);
+        QuadFit<T> const fit =
+            fit_quad(supports, work.sample.data(), work.list.data(), static_cast<int>(own), search.usable_texels);
         if (!fit.quad.visible) {
             stack.held[static_cast<unsigned>(stack.held_count++)] = part;
             continue;
@@ -305,8 +304,8 @@ inline void take_tiles(MapSearch<T>& work, LightSampler<T> const& sampler, Light
         if (!(*nearest <= *farthest && *nearest <= view.z_far && *farthest >= view.z_near && depth > T(0))) continue;
         T const x = (T(i % tiles.width) + T(0.5)) / T(tiles.width);
         T const y = (T(i / tiles.width) + T(0.5)) / T(tiles.height);
-        Vec3<T> const point = point_at(view, view.left + (view.right - view.left) * x,
-                                       view.bottom + (view.top - view.bottom) * y, depth);
+        Vec3<T> const point =
+            point_at(view, view.left + (view.right - view.left) * x, view.bottom + (view.top - view.bottom) * y, depth);
         LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
         sample.weight = T(1);
         if (sample.usable) work.sample[static_cast<unsigned>(work.count++)] = sample;
@@ -329,14 +328,14 @@ template <class T>
 // Every point of every tile between its two depths is in one of the maps, with margin_texels to spare on each side, and
 // every caster of the box between it and the sun is in that map. `samples`, a surface each from somewhere in a tile,
 // only weigh what is worth texels; those turned away from the light count for nothing, and where none is left the tiles
-// weigh alike. The same inputs give the same maps. Depths that are no numbers, or not in front of the eye, are no tiles;
-// the last are cut at view.z_far.
+// weigh alike. The same inputs give the same maps. Depths that are no numbers, or not in front of the eye, are no
+// tiles; the last are cut at view.z_far.
 //
 // Not visible, and no fault: no casters, no tiles. A spot is clamped_option, as are pixels <= 0.
 template <class T>
-[[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light,
-                                               Aabb<T> const& casters, SurfacePoint<T> const* samples,
-                                               int sample_count, DepthTiles<T> const& tiles, MapLimits<T> const& limits,
+[[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
+                                               SurfacePoint<T> const* samples, int sample_count,
+                                               DepthTiles<T> const& tiles, MapLimits<T> const& limits,
                                                MapSearch<T>& work) noexcept {
     SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a choice needs its samples");
     bool const has_tiles = tiles.width > 0 && tiles.height > 0;
@@ -400,9 +399,9 @@ template <class T>
 // of the maps, and so is every caster between it and the sun. What is worth texels is guessed (box_samples.hpp). Boxes
 // that are empty or not finite are no receivers; large ones are cut to the view.
 template <class T>
-[[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light,
-                                               Aabb<T> const& casters, Aabb<T> const* receivers, int receiver_count,
-                                               MapLimits<T> const& limits, MapSearch<T>& work) noexcept {
+[[nodiscard]] inline ChosenMaps<T> choose_maps(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
+                                               Aabb<T> const* receivers, int receiver_count, MapLimits<T> const& limits,
+                                               MapSearch<T>& work) noexcept {
     SHADOWMATH_ASSERT(receivers != nullptr || receiver_count <= 0, "a choice needs its receivers");
     ChosenMaps<T> none;
     Door<T> const in = detail::door_of_choice(view, light, casters, limits);
@@ -412,8 +411,7 @@ template <class T>
     LightSampler<T> const sampler = light_sampler(eye, in.light, limits.eye_pixels * leaning_surfaces<T>,
                                                   Vec2<T>(T(guess_rays_x), T(guess_rays_y)));
     if (!sampler.usable) return none;
-    work.count =
-        guesses_in_boxes(sampler, in.light, receivers, receiver_count, work.sample.data(), max_search_samples);
+    work.count = guesses_in_boxes(sampler, in.light, receivers, receiver_count, work.sample.data(), max_search_samples);
     auto const cover = [&](ViewPart<T> const& part, auto const& visit) {
         ViewVolume<T> piece = eye;
         piece.left = std::fmax(eye.left, part.lo.x);
@@ -423,8 +421,8 @@ template <class T>
         piece.z_near = std::fmax(eye.z_near, part.lo.z);
         piece.z_far = std::fmin(eye.z_far, part.hi.z);
         if (!(piece.left < piece.right && piece.bottom < piece.top && piece.z_near < piece.z_far)) return;
-        T const slack = T(16) * std::numeric_limits<T>::epsilon() *
-                        (piece.z_far + detail::largest_of(eye.pose.position));
+        T const slack =
+            T(16) * std::numeric_limits<T>::epsilon() * (piece.z_far + detail::largest_of(eye.pose.position));
         Aabb<T> around = bounds_of(corners(piece));
         around.lo -= slack;
         around.hi += slack;
@@ -433,9 +431,8 @@ template <class T>
             ConvexBody<T> const body = visible_body(piece, receivers[i], slack);
             std::array<Vec3<T>, 2 * max_body_edges> points;
             int count = 0;
-            for_each_vertex(body, [&](Vec3<T> const& p) {
-                points[static_cast<unsigned>(count++)] = in_light(sampler.basis, p);
-            });
+            for_each_vertex(
+                body, [&](Vec3<T> const& p) { points[static_cast<unsigned>(count++)] = in_light(sampler.basis, p); });
             if (count > 0) visit(points.data(), count);
         }
     };

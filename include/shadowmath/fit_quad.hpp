@@ -25,8 +25,8 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel of
-// a pixel and a half is as good as any smaller one; from there on it is so many more wrong, until the shadow is lost.
+// What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel
+// of a pixel and a half is as good as any smaller one; from there on it is so many more wrong, until the shadow is lost.
 template <class T>
 [[nodiscard]] inline T price_of(T major) noexcept {
     constexpr T fine = T(1.4), lost = T(60);
@@ -119,7 +119,7 @@ template <class T>
 template <class T>
 struct QuadFit {
     Quad<T> quad;
-    std::array<int, 4> direction{};  // of left, right, bottom, top
+    std::array<int, 4> direction{};           // of left, right, bottom, top
     T price = std::numeric_limits<T>::max();  // the sum over all samples
 };
 
@@ -132,15 +132,15 @@ template <class T>
     T sum = T(0);
     for (int i = 0; i < count; i += stride) {
         LightSample<T> const& sample = samples[list[i]];
-        if (sample.weight > T(0))
-            sum += sample.weight * shadowmath::price_of(major_at(quad, usable_texels, sample));
+        if (sample.weight > T(0)) sum += sample.weight * shadowmath::price_of(major_at(quad, usable_texels, sample));
     }
     return sum * T(stride);
 }
 
 template <class T>
-inline void consider(QuadFit<T>& best, Supports<T> const& supports, std::array<int, 4> const& direction, T usable_texels,
-                     LightSample<T> const* samples, std::uint16_t const* list, int count, int stride) noexcept {
+inline void consider(QuadFit<T>& best, Supports<T> const& supports, std::array<int, 4> const& direction,
+                     T usable_texels, LightSample<T> const* samples, std::uint16_t const* list, int count,
+                     int stride) noexcept {
     Quad<T> const quad = quad_at(supports, direction);
     if (!quad.visible) return;
     // Of no samples the smallest is as good as any.

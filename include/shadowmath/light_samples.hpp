@@ -31,7 +31,7 @@ struct LightSample {
     Vec2<T> reach_x{T(0)};  // from `place` to the sides of the cell that the sample stands for, metres
     Vec2<T> reach_y{T(0)};
     T weight = T(1);
-    Vec3<T> seen{T(0)};  // right and up for a metre of depth (of an orthographic view metres), and eye depth
+    Vec3<T> seen{T(0)};   // right and up for a metre of depth (of an orthographic view metres), and eye depth
     bool usable = false;  // false: behind the eye or the light, or no number
 };
 
@@ -56,8 +56,7 @@ template <class T>
     if (!sizes || faults_of(view).any() || unusable(light) || light.kind != LightKind::directional) return sampler;
     sampler.view.pose = orthonormalized(view.pose);
     sampler.basis = light_basis(light.direction);
-    sampler.pixels_per_side =
-        Vec2<T>(eye_pixels.x / (view.right - view.left), eye_pixels.y / (view.top - view.bottom));
+    sampler.pixels_per_side = Vec2<T>(eye_pixels.x / (view.right - view.left), eye_pixels.y / (view.top - view.bottom));
     sampler.half_cell = Vec2<T>(T(0.5) * eye_pixels.x / cells.x, T(0.5) * eye_pixels.y / cells.y);
     sampler.usable = all_finite(sampler.pixels_per_side) && all_finite(sampler.half_cell);
     return sampler;
@@ -100,8 +99,9 @@ template <class T>
     // The cell's sides: the gains' inverse. A surface seen edge-on has none; then the cell is as deep as it is wide,
     // eight times.
     T const determinant = sample.gain_x.x * sample.gain_y.y - sample.gain_x.y * sample.gain_y.x;
-    T const wide = T(8) * spread *
-                   std::fmax(sampler.half_cell.x / sampler.pixels_per_side.x, sampler.half_cell.y / sampler.pixels_per_side.y);
+    T const wide =
+        T(8) * spread *
+        std::fmax(sampler.half_cell.x / sampler.pixels_per_side.x, sampler.half_cell.y / sampler.pixels_per_side.y);
     auto const reach = [&](Vec2<T> const& pixels) {
         Vec2<T> const scaled(pixels.x * sample.gain_y.y - pixels.y * sample.gain_y.x,
                              pixels.y * sample.gain_x.x - pixels.x * sample.gain_x.y);

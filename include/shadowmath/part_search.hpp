@@ -3,7 +3,7 @@
 // Which part of what is seen gets a map of its own: cuts across depth, or across the picture, where they save most.
 //
 //   grown     one part to begin with; always the part and the cut that make the price least; depth alone, and freely
-//   settled   each cut moves to and fro while that helps
+//   settled   each cut moves either way while that helps
 //
 // Cascades cut depth alone. That is nearly best for a street; not for a square seen from above, where four strips have
 // texels four times as long as wide, and not for two fronts with a gap between.

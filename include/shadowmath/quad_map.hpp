@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A map whose four sides are any four lines of the light's plane: the one homography that takes the quadrilateral
-// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared and lopsided ones are all this.
+// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared and lopsided ones are all
+// this.
 //
 //          top               Each side is a line l with l(p) >= 0 inside. Of four lines in a plane one combination
 //        ________            vanishes,
@@ -43,7 +44,7 @@ struct Quad {
     Vec3<T> y{T(0)};
     Vec3<T> w{T(0), T(0), T(1)};  // 1 where it is most, among the corners
     std::array<Vec2<T>, 4> corner{};
-    T w_least = T(0);     // at a corner
+    T w_least = T(0);      // at a corner
     bool visible = false;  // false: the lines bound no quadrilateral, or one that ends in a point
 };
 

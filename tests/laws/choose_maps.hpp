@@ -33,8 +33,8 @@ template <class T>
     for (int k = 0; k < chosen.count; ++k) {
         ShadowMap<T> const& map = chosen.at[static_cast<std::size_t>(k)].map;
         T const margin = T(2) * limits.margin_texels / T(limits.map_size);
-        Vec4<long double> const at = canonical_from_clip<long double>(map.clip) *
-                                     image_of(map.clip_from_world, Vec4<T>(point, T(1)));
+        Vec4<long double> const at =
+            canonical_from_clip<long double>(map.clip) * image_of(map.clip_from_world, Vec4<T>(point, T(1)));
         long double const side = (1 - static_cast<long double>(margin) + static_cast<long double>(slack)) * at.w;
         long double const end = (1 + static_cast<long double>(slack)) * at.w;
         if (at.w > 0 && std::abs(at.x) <= side && std::abs(at.y) <= side && at.z <= end) return k;
@@ -46,7 +46,8 @@ template <class T>
 [[nodiscard]] bool same(ChosenMaps<T> const& a, ChosenMaps<T> const& b) {
     if (a.count != b.count || a.tried != b.tried || a.faults != b.faults || a.price != b.price) return false;
     for (int k = 0; k < a.count; ++k)
-        if (a.at[static_cast<std::size_t>(k)].map.clip_from_world != b.at[static_cast<std::size_t>(k)].map.clip_from_world)
+        if (a.at[static_cast<std::size_t>(k)].map.clip_from_world !=
+            b.at[static_cast<std::size_t>(k)].map.clip_from_world)
             return false;
     return true;
 }

@@ -75,8 +75,8 @@ TYPED_TEST(ChooseMapsProperty, IsCalmForAnyInput) {
         limits.maps = static_cast<int>(*below(7)) - 1;
         limits.map_size = static_cast<int>(*below(2000)) - 10;
         auto const seen = watched([&] {
-            return choose_maps(view, light, casters, samples.data(), 6, DepthTiles<T>{depths.data(), depths.data(), 3, 2},
-                               limits, search<T>());
+            return choose_maps(view, light, casters, samples.data(), 6,
+                               DepthTiles<T>{depths.data(), depths.data(), 3, 2}, limits, search<T>());
         });
         RC_ASSERT(seen.allocations == 0);
         auto const bounded =

@@ -37,9 +37,8 @@ struct Street {
     int width = 40, height = 25;
     std::vector<double> nearest, farthest;
     std::vector<SurfacePoint<double>> samples;
-    std::vector<Aabb<double>> boxes{{V3(-300, -1, -300), V3(300, 0, 300)},
-                                    {V3(-18, 0, -300), V3(-8, 12, 300)},
-                                    {V3(8, 0, -300), V3(18, 15, 300)}};
+    std::vector<Aabb<double>> boxes{
+        {V3(-300, -1, -300), V3(300, 0, 300)}, {V3(-18, 0, -300), V3(-8, 12, 300)}, {V3(8, 0, -300), V3(18, 15, 300)}};
 
     explicit Street(ViewVolume<double> const& seen = street_view()) : view(seen) {
         nearest.assign(std::size_t(width * height), std::numeric_limits<double>::max());
@@ -127,9 +126,12 @@ TEST(ChooseMaps, EveryTileIsInAMapFromItsNearestToItsFarthestDepth) {
                 for (int step = 0; step < 5 && street.nearest[tile] <= street.farthest[tile]; ++step)
                     for (double const x : {0.0, 0.5, 1.0})
                         for (double const y : {0.0, 0.5, 1.0}) {
-                            double const side_x = view.left + (view.right - view.left) * (i % street.width + x) / street.width;
-                            double const side_y = view.bottom + (view.top - view.bottom) * (i / street.width + y) / street.height;
-                            double const depth = street.nearest[tile] + (street.farthest[tile] - street.nearest[tile]) * step / 4;
+                            double const side_x =
+                                view.left + (view.right - view.left) * (i % street.width + x) / street.width;
+                            double const side_y =
+                                view.bottom + (view.top - view.bottom) * (i / street.width + y) / street.height;
+                            double const depth =
+                                street.nearest[tile] + (street.farthest[tile] - street.nearest[tile]) * step / 4;
                             EXPECT_GE(laws::server_of(chosen, limits, point_at(view, side_x, side_y, depth), 1e-9), 0);
                         }
             }
@@ -289,7 +291,8 @@ TEST(ChooseMaps, OfNothingIsNothingAndNoFault) {
     EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.samples.data(), int(street.samples.size()),
                                        DepthTiles<double>{}, limits, work)))
         << "no tiles";
-    EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.boxes.data(), 0, limits, work))) << "no boxes";
+    EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.boxes.data(), 0, limits, work)))
+        << "no boxes";
     street.nearest.assign(street.nearest.size(), 1.0);
     street.farthest.assign(street.farthest.size(), 0.5);
     EXPECT_TRUE(is_nothing(street.chosen())) << "nothing is seen";
@@ -329,7 +332,8 @@ TEST(ChooseMaps, EveryBadInputHasItsFaultAndHarmlessMaps) {
     for (Row const& bad : rows) {
         Street street;
         street.view = bad.view;
-        for (auto const& chosen : {street.chosen(bad.limits, bad.light), street.chosen_from_boxes(bad.limits, bad.light)}) {
+        for (auto const& chosen :
+             {street.chosen(bad.limits, bad.light), street.chosen_from_boxes(bad.limits, bad.light)}) {
             EXPECT_TRUE(chosen.faults.has(bad.fault)) << bad.what;
             EXPECT_EQ(chosen.count > 0, bad.visible) << bad.what;
             for (auto const& made : chosen) EXPECT_TRUE(laws::harmless(made.map)) << bad.what;

@@ -96,7 +96,8 @@ TEST(QuadMap, OfABoxIsTheBox) {
 TEST(QuadMap, LengthsOfItsSidesNeverMatter) {
     QuadSides<double> const sides = lopsided();
     Quad<double> const quad = quad_between(sides);
-    Quad<double> const scaled = quad_between(QuadSides<double>{sides[0] * 8.0, sides[1], sides[2] * 0.5, sides[3] * 2.0});
+    Quad<double> const scaled =
+        quad_between(QuadSides<double>{sides[0] * 8.0, sides[1], sides[2] * 0.5, sides[3] * 2.0});
     ASSERT_TRUE(scaled.visible);
     EXPECT_NEAR(glm::length(quad.x - scaled.x) + glm::length(quad.y - scaled.y) + glm::length(quad.w - scaled.w), 0.0,
                 1e-14);
@@ -172,7 +173,8 @@ TEST(FitQuad, HoldsEverySampleWithItsWholeCell) {
     EXPECT_TRUE(laws::fills_the_square(fit.quad));
     for (auto const& sample : cloud.samples)
         for (double const a : {-1.0, 1.0})
-            for (double const b : {-1.0, 1.0}) EXPECT_TRUE(is_in(fit.quad, sample.place + a * sample.reach_x + b * sample.reach_y));
+            for (double const b : {-1.0, 1.0})
+                EXPECT_TRUE(is_in(fit.quad, sample.place + a * sample.reach_x + b * sample.reach_y));
 }
 
 TEST(FitQuad, CostsNoMoreThanTheBestRectangleAndThanAnySideTurnedAlone) {
