@@ -7390,8 +7390,12 @@ namespace shadowmath {
 inline namespace v0 {
 
 // What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel
+<<<<<<< HEAD
 // of a pixel and a half is as good as any smaller one; from there on it is so many more wrong, until the shadow is
 // lost.
+=======
+// of a pixel and a half is as good as any smaller one; from there on it is so many more wrong, until the shadow is lost.
+>>>>>>> quality
 template <class T>
 [[nodiscard]] inline T price_of(T major) noexcept {
     constexpr T fine = T(1.4), lost = T(60);
@@ -7592,7 +7596,7 @@ template <class T>
 // Which part of what is seen gets a map of its own: cuts across depth, or across the picture, where they save most.
 //
 //   grown     one part to begin with; always the part and the cut that make the price least; depth alone, and freely
-//   settled   each cut moves to and fro while that helps
+//   settled   each cut moves either way while that helps
 //
 // Cascades cut depth alone. That is nearly best for a street; not for a square seen from above, where four strips have
 // texels four times as long as wide, and not for two fronts with a gap between.
