@@ -26,7 +26,7 @@ namespace shadowmath {
 inline namespace v0 {
 
 // What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel
-// of a pixel and a half is as good as any smaller one; from there on it is so many more wrong, until the shadow is lost.
+// of a pixel and a half is as good as any smaller one; from there on so many more are wrong, until the shadow is lost.
 template <class T>
 [[nodiscard]] inline T price_of(T major) noexcept {
     constexpr T fine = T(1.4), lost = T(60);
