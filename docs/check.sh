@@ -76,7 +76,7 @@ done | report 'on no page'
 grep -rhoP '^(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP)\(\K\w+, *\w+' tests examples --include='*.cpp' |
     sed 's/, */./' | sort -u > "$fresh/tests"
 grep -noP '`\K[A-Z]\w+\.[A-Z]\w+(?=`)' "${pages[@]}" | while IFS=: read -r page line name; do
-    grep -qxF -- "$name" "$fresh/tests" || grep -rqF "NAME ${name%%_*}" --include=CMakeLists.txt examples tests docs || printf '%s:%s: %s\n' "$page" "$line" "$name"
+    grep -qxF -- "$name" "$fresh/tests" || grep -rqF "${name%%_*}" --include=CMakeLists.txt examples tests || printf '%s:%s: %s\n' "$page" "$line" "$name"
 done | report 'no such test'
 
 # The code compiles: each block a function, its includes before all of them.
