@@ -77,7 +77,7 @@ grep -rhoP '^(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP)\(\K\w+, *\w+' tests e
     sed 's/, */./' | sort -u > "$fresh/tests"
 grep -noP '`\K[A-Z]\w+\.[A-Z]\w+(?=`)' "${pages[@]}" | while IFS=: read -r page line name; do
     grep -qxF -- "$name" "$fresh/tests" ||
-        grep -rqF "NAME ${name%%_*}" --include=CMakeLists.txt examples tests docs ||
+        grep -rqF "${name%%_*}" --include=CMakeLists.txt examples tests ||
         printf '%s:%s: %s\n' "$page" "$line" "$name"
 done | report 'no such test'
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/quality/report.hpp"
 
-#include "examples/gallery/svg.hpp"
+#include "examples/support/svg.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -112,7 +112,7 @@ std::string rows_of(std::vector<Summary> const& all) {
     for (Summary const& s : all)
         text += formatted("<tr class=\"%s\"><td>%s</td><td>%.4f</td><td>%.4f</td><td>%.3f</td><td>%.2f</td>"
                           "<td>%.2f</td><td>%.1f</td><td>%.0f %%</td><td>%.0f %%</td><td>%ld</td><td>%.1f</td></tr>\n",
-                          class_of(s.policy.family), gallery::escaped(s.policy.title).c_str(), 100.0 * s.mean,
+                          class_of(s.policy.family), example::escaped(s.policy.title).c_str(), 100.0 * s.mean,
                           100.0 * s.geometric_mean, 100.0 * s.worst, s.of_best_folk, s.footprint_mean, s.footprint_p95,
                           100.0 * s.texels_used, 100.0 * s.not_worse, s.dark_unmapped, s.fit_milliseconds);
     return text + "</table>\n";
@@ -129,7 +129,7 @@ std::string bars_of(std::vector<Summary> const& all) {
         text += formatted("<text x=\"260\" y=\"%.0f\" text-anchor=\"end\">%s</text>"
                           "<rect class=\"bar %s\" x=\"270\" y=\"%.0f\" width=\"%.1f\" height=\"16\"/>"
                           "<text x=\"%.1f\" y=\"%.0f\">%.3f %%</text>\n",
-                          y + 15.0, gallery::escaped(s.policy.title).c_str(), class_of(s.policy.family), y + 2.0,
+                          y + 15.0, example::escaped(s.policy.title).c_str(), class_of(s.policy.family), y + 2.0,
                           540.0 * s.mean / most, 276.0 + 540.0 * s.mean / most, y + 15.0, 100.0 * s.mean);
         y += 22.0;
     }
@@ -156,7 +156,7 @@ std::string heat_maps_of(Results const& results) {
     std::string text = "<h2>Why: eye pixels a texel</h2><p>From &frac14; (blue) to 16 (white); grey where no map is "
                        "asked. Beside each picture of the recipe to beat what was chosen for the same view.</p>\n";
     for (ViewResult const* view : views) {
-        text += "<figure><figcaption><b>" + gallery::escaped(view->scene + ", " + view->view) + "</b>";
+        text += "<figure><figcaption><b>" + example::escaped(view->scene + ", " + view->view) + "</b>";
         for (auto const& [policy, file] : view->pictures) {
             Score const score = wrong(*view, policy);
             text +=
@@ -165,7 +165,7 @@ std::string heat_maps_of(Results const& results) {
         text += "</figcaption>";
         for (auto const& [policy, file] : view->pictures)
             text += "<img src=\"" + file + "\" alt=\"footprints of " + policy + "\" title=\"" +
-                    gallery::escaped(policy + ": " + wrong(*view, policy).note) + "\">";
+                    example::escaped(policy + ": " + wrong(*view, policy).note) + "\">";
         text += "</figure>\n";
     }
     return text;
@@ -183,7 +183,7 @@ std::string page(Settings const& settings, Results const& results) {
                   "quarter. Recipes choose a map by eye depth, everything else by what holds the point.</p>\n",
                   results.views.size(), settings.extent.width, settings.extent.height, map_count, map_size, map_size);
     for (std::string const& what : results.absent)
-        text += "<p><b>Absent, not studied:</b> " + gallery::escaped(what) + "</p>";
+        text += "<p><b>Absent, not studied:</b> " + example::escaped(what) + "</p>";
     return text + bars_of(all) + rows_of(all) + heat_maps_of(results) + "</body></html>\n";
 }
 
