@@ -68,6 +68,17 @@ struct Street : Search {
     static double depth(int k) { return 2.0 * std::pow(50.0, k / 15.0); }
 };
 
+// The same at depths that no eighth of the way meets.
+struct CrowdedStreet : Search {
+    CrowdedStreet() {
+        for (int k = 0; k < 60; ++k)
+            for (int i = 0; i < 6; ++i) {
+                double const depth = 2.0 * std::pow(50.0, std::pow(k / 59.0, 1.7));
+                take(sample_at(0.36 * i - 0.9, -1.7 / depth, depth));
+            }
+    }
+};
+
 // Two fronts equally far, with a gap between.
 struct Fronts : Search {
     Fronts() {
@@ -237,12 +248,40 @@ TEST(PartSearch, NoCutIsMadeThatSavesNothing) {
 
 TEST(PartSearch, SettlingNeverCostsAndLeavesThePartsSound) {
     Street street;
-    for (bool const by_depth_alone : {true, false}) {
-        Tree tree = street.grown(max_chosen_maps, by_depth_alone);
-        double const before = tree.price;
-        detail::settle(street.parts, tree);
-        EXPECT_LT(tree.price, before) << "seven places are not all";
-        expect_sound(street, tree);
+    CrowdedStreet crowded;
+    Fronts fronts;
+    for (Search* const search : {static_cast<Search*>(&street), static_cast<Search*>(&crowded),
+                                 static_cast<Search*>(&fronts)})
+        for (bool const by_depth_alone : {true, false})
+            for (int most = 1; most <= max_chosen_maps; ++most) {
+                Tree tree = search->grown(most, by_depth_alone);
+                double const before = tree.price;
+                detail::settle(search->parts, tree);
+                EXPECT_LE(tree.price, before * (1 + 1e-12));
+                expect_sound(*search, tree);
+            }
+}
+
+TEST(PartSearch, SettlingFindsCutsBetweenThosePlacesThatWereTried) {
+    CrowdedStreet street;
+    for (bool const by_depth_alone : {true, false})
+        for (int const most : {2, 3}) {
+            Tree tree = street.grown(most, by_depth_alone);
+            double const before = tree.price;
+            detail::settle(street.parts, tree);
+            EXPECT_LT(tree.price, 0.997 * before) << by_depth_alone << ' ' << most;
+        }
+}
+
+TEST(PartSearch, ASettledCutIsNoWorseThanItsNeighbours) {
+    CrowdedStreet street;
+    Tree tree = street.grown(2, true);
+    detail::settle(street.parts, tree);
+    for (double const way : {-0.03, -0.015, 0.015, 0.03}) {
+        Tree moved = tree;
+        moved.node[0].at *= std::pow(50.0, way);
+        detail::refit(street.parts, moved);
+        EXPECT_GE(moved.price, tree.price) << way;
     }
 }
 
