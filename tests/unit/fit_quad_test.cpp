@@ -169,7 +169,8 @@ TEST(FitQuad, TheMajorAxisIsTheLongestImageOfAnyTexelLength) {
     sample.gain_x = V2(300, 120);
     sample.gain_y = V2(-80, 150);
     QuadGain<double> const map = gain_at(quad, 512.0, sample.place);
-    glm::dmat2 const pixels_per_texel = glm::dmat2(sample.gain_x, sample.gain_y) * glm::inverse(glm::dmat2(map.x, map.y));
+    glm::dmat2 const pixels_per_texel =
+        glm::dmat2(sample.gain_x, sample.gain_y) * glm::inverse(glm::dmat2(map.x, map.y));
     double longest = 0.0;
     for (int i = 0; i < 20000; ++i) {
         double const angle = 3.14159265358979 * i / 20000;
@@ -234,8 +235,7 @@ TEST(FitQuad, APlaceThatIsNoNumberMovesNoSide) {
     Supports<double> alone = no_supports(SampleFrame<double>{});
     add(alone, V2(no_number));
     EXPECT_FALSE(quad_at(alone, {32, 0, 48, 16}).visible);
-    EXPECT_FALSE(
-        fit_quad(alone, cloud.samples.data(), cloud.list.data(), int(cloud.list.size()), 1020.0).quad.visible);
+    EXPECT_FALSE(fit_quad(alone, cloud.samples.data(), cloud.list.data(), int(cloud.list.size()), 1020.0).quad.visible);
 }
 
 // Nothing is gained by a warp or a shear where a metre is worth the same all over.
@@ -275,8 +275,8 @@ TEST(FitQuad, OfNoSamplesButPlacesIsTheSmallestAroundThem) {
 TEST(FitQuad, AStrideLeavesSamplesOutOfThePriceNeverOutOfTheMap) {
     Cloud const cloud;
     for (int const stride : {2, 7, 144, 1000}) {
-        QuadFit<double> const fit = fit_quad(cloud.supports, cloud.samples.data(), cloud.list.data(),
-                                             int(cloud.list.size()), 1020.0, stride);
+        QuadFit<double> const fit =
+            fit_quad(cloud.supports, cloud.samples.data(), cloud.list.data(), int(cloud.list.size()), 1020.0, stride);
         ASSERT_TRUE(fit.quad.visible) << stride;
         for (auto const& sample : cloud.samples) EXPECT_TRUE(is_in(fit.quad, sample.place)) << stride;
     }

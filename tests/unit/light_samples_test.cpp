@@ -129,8 +129,7 @@ TEST(LightSamples, ACellIsAsManyPixelsWideAsItsShareOfThePicture) {
 
 TEST(LightSamples, OnlyWhatTheLightFallsOnHasAWeight) {
     LightSampler<double> const from_above = light_sampler(some_view(), morning, picture, cells);
-    LightSampler<double> const from_below =
-        light_sampler(some_view(), directional(-morning.direction), picture, cells);
+    LightSampler<double> const from_below = light_sampler(some_view(), directional(-morning.direction), picture, cells);
     SurfacePoint<double> const floor{point_at(some_view(), 0.0, -0.3, 6.0), V3(0, 1, 0)};
     EXPECT_EQ(light_sample(from_above, floor).weight, 1.0);
     EXPECT_EQ(light_sample(from_below, floor).weight, 0.0);
@@ -165,7 +164,8 @@ TEST(LightSamples, SurfacesThatLightOrEyeGrazeHaveACellWithAnEnd) {
     LightSampler<double> const sampler = light_sampler(view, morning, picture, cells);
     V3 const point = point_at(view, 0.2, -0.3, 6.0), to_eye = view.pose.position - point;
     V3 const edge_on_to_light = glm::cross(morning.direction, V3(0.3, 1, -0.2));
-    V3 const edge_on_to_eye = glm::cross(to_eye, V3(0.3, 1, -0.2)), edge_on_to_both = glm::cross(to_eye, morning.direction);
+    V3 const edge_on_to_eye = glm::cross(to_eye, V3(0.3, 1, -0.2)),
+             edge_on_to_both = glm::cross(to_eye, morning.direction);
     for (V3 const normal : {edge_on_to_light, edge_on_to_eye, edge_on_to_both}) {
         LightSample<double> const sample = light_sample(sampler, {point, normal});
         ASSERT_TRUE(sample.usable);

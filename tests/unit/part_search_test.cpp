@@ -250,8 +250,8 @@ TEST(PartSearch, SettlingNeverCostsAndLeavesThePartsSound) {
     Street street;
     CrowdedStreet crowded;
     Fronts fronts;
-    for (Search* const search : {static_cast<Search*>(&street), static_cast<Search*>(&crowded),
-                                 static_cast<Search*>(&fronts)})
+    for (Search* const search :
+         {static_cast<Search*>(&street), static_cast<Search*>(&crowded), static_cast<Search*>(&fronts)})
         for (bool const by_depth_alone : {true, false})
             for (int most = 1; most <= max_chosen_maps; ++most) {
                 Tree tree = search->grown(most, by_depth_alone);
