@@ -1423,12 +1423,12 @@ public:
     void look_at(Lanes<T> const& four) noexcept {
         for (int i = 0; i < 4; ++i) beyond_ |= beyond_reach(std::abs(four[i]));
     }
-    // Parts of unit vectors: 4 and more is beyond.
+    // Parts of unit vectors: 2 and more is beyond, as the rounding that is allowed for would be too little.
     void look_at_parts(Lanes<T> const& four) noexcept { look_at(four * Lanes<T>::of(big, big, big, big)); }
     [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
 
 private:
-    static constexpr T big = T(0x1p58);
+    static constexpr T big = T(0x1p59);
     decltype(beyond_reach(T(0))) beyond_ = 0;
 };
 
@@ -1464,7 +1464,7 @@ public:
     void look_at_parts(Lanes<float> const& four) noexcept {
         Bits bits;
         std::memcpy(&bits, &four, sizeof bits);
-        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40800000u);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40000000u);
     }
     [[nodiscard]] bool any() const noexcept {
         std::uint64_t halves[2];
@@ -1568,12 +1568,17 @@ template <class T>
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
                                                    ViewInLight<T>& seen) noexcept {
-    static_assert(sizeof view.pose == 12 * sizeof(T), "numbers without a gap");
     seen.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
     seen.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
     seen.z = Lanes<T>::of(basis.x.z, basis.y.z, basis.depth.z, T(0));
     BeyondReach<T> beyond;
-    for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
+    if constexpr (sizeof view.pose == 12 * sizeof(T)) {
+        for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
+    } else {
+        // GLM's aligned vectors have a gap behind each.
+        for (Vec3<T> const* v : {&view.pose.position, &view.pose.forward, &view.pose.right, &view.pose.up})
+            beyond.look_at(Lanes<T>::of(v->x, v->y, v->z, T(0)));
+    }
     beyond.look_at(four_at(&view.left));
     beyond.look_at_parts(seen.x);
     beyond.look_at_parts(seen.y);
@@ -10850,9 +10855,10 @@ template <class T>
     T const angle = beyond ? std::atan2(-line.y, -line.x) : std::atan2(line.y, line.x);
     constexpr T turns = T(table_steps) / T(6.283185307179586476925286766559L);
     int const k = static_cast<int>(std::floor(angle * turns)) & (table_steps - 1);
-    int const j = static_cast<int>(std::abs(r) / reach * T(table_steps));
-    std::uint32_t const mask =
-        table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
+    // NOTE: as an unsigned number: under -ffast-math a length that overflows gives any j at all.
+    unsigned const j = static_cast<unsigned>(static_cast<int>(std::abs(r) / reach * T(table_steps)));
+    unsigned const last = table_steps - 1;
+    std::uint32_t const mask = table.masks[static_cast<unsigned>(k) * table_steps + (j < last ? j : last)];
     return beyond ? ~mask : mask;
 }
 

@@ -127,12 +127,12 @@ public:
     void look_at(Lanes<T> const& four) noexcept {
         for (int i = 0; i < 4; ++i) beyond_ |= beyond_reach(std::abs(four[i]));
     }
-    // Parts of unit vectors: 4 and more is beyond.
+    // Parts of unit vectors: 2 and more is beyond, as the rounding that is allowed for would be too little.
     void look_at_parts(Lanes<T> const& four) noexcept { look_at(four * Lanes<T>::of(big, big, big, big)); }
     [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
 
 private:
-    static constexpr T big = T(0x1p58);
+    static constexpr T big = T(0x1p59);
     decltype(beyond_reach(T(0))) beyond_ = 0;
 };
 
@@ -168,7 +168,7 @@ public:
     void look_at_parts(Lanes<float> const& four) noexcept {
         Bits bits;
         std::memcpy(&bits, &four, sizeof bits);
-        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40800000u);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40000000u);
     }
     [[nodiscard]] bool any() const noexcept {
         std::uint64_t halves[2];

@@ -55,12 +55,17 @@ template <class T>
 template <class T>
 [[nodiscard, gnu::always_inline]] inline bool look(LightBasis<T> const& basis, ViewVolume<T> const& view,
                                                    ViewInLight<T>& seen) noexcept {
-    static_assert(sizeof view.pose == 12 * sizeof(T), "numbers without a gap");
     seen.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
     seen.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
     seen.z = Lanes<T>::of(basis.x.z, basis.y.z, basis.depth.z, T(0));
     BeyondReach<T> beyond;
-    for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
+    if constexpr (sizeof view.pose == 12 * sizeof(T)) {
+        for (int i = 0; i < 12; i += 4) beyond.look_at(four_at(&view.pose.position.x + i));
+    } else {
+        // GLM's aligned vectors have a gap behind each.
+        for (Vec3<T> const* v : {&view.pose.position, &view.pose.forward, &view.pose.right, &view.pose.up})
+            beyond.look_at(Lanes<T>::of(v->x, v->y, v->z, T(0)));
+    }
     beyond.look_at(four_at(&view.left));
     beyond.look_at_parts(seen.x);
     beyond.look_at_parts(seen.y);

@@ -76,7 +76,7 @@ int every_overloaded_function() noexcept {
     add(supports, Vec2<T>(T(0)));
     add(supports, LightSample<T>{});
     count += is_in(quad, Vec2<T>(T(0))) && is_in(ViewPart<T>{}, point) && area(moved(quad, Vec2<T>(T(1)))) > T(0);
-    static MapSearch<T> search;
+    MapSearch<T> search;
     SurfacePoint<T> const surface;
     Light<T> const sun;
     count += choose_maps(view, sun, box, &surface, 1, DepthTiles<T>{}, MapLimits<T>{}, search).count;

@@ -66,6 +66,7 @@ Traced traced(PlanePicture<T> const& picture, std::vector<Triangle<T>> const& ca
                                                          {scalars.data(), words.data(), need}, rect);
     Casters<T> list;
     list.position = casters.empty() ? nullptr : &casters[0][0].x;
+    list.stride = static_cast<int>(sizeof(Vec3<T>) / sizeof(T));  // GLM's aligned vectors have a gap behind each
     list.vertex_count = static_cast<std::uint32_t>(3 * casters.size());
     list.triangle_count = static_cast<std::uint32_t>(casters.size());
     trace<T, Lanes>(buffer, list);

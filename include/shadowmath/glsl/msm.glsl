@@ -6,6 +6,7 @@
 #define SM_MSM_GLSL
 
 #include "moments.glsl"
+#include "quotient.glsl"
 
 const float sm_msm_bias_float = 3e-6;
 const float sm_msm_bias_16_bits = 6e-5;
@@ -42,9 +43,11 @@ vec3 sm_solve_hankel(vec4 b, float x) {
     precise float skew = b.z - b.x * b.y;
     precise float spread = (b.w - b.y * b.y) * variance - skew * skew;
     precise float c1 = x - b.x;
-    precise float c2 = x * x - b.y - skew / variance * c1;
-    precise float z = c2 * variance / spread;
-    precise float y = (c1 - skew * z) / variance;
+    precise float c2 = x * x - b.y - sm_quotient_or_zero(skew, variance) * c1;
+    precise float scaled = c2 * variance;
+    precise float z = sm_quotient_or_zero(scaled, spread);
+    precise float rest = c1 - skew * z;
+    precise float y = sm_quotient_or_zero(rest, variance);
     precise float constant = 1.0 - b.x * y - b.y * z;
     return vec3(constant, y, z);
 }
@@ -52,9 +55,13 @@ vec3 sm_solve_hankel(vec4 b, float x) {
 // The mass before x in the distribution with these moments, an atom at x and atoms at low <= high.
 float sm_mass_before(vec4 b, float x, float low, float high) {
     if (!(x > low)) return 0.0;
-    precise float between = (x * high - b.x * (x + high) + b.y) / ((high - low) * (x - low));
-    precise float beyond = 1.0 - (low * high - b.x * (low + high) + b.y) / ((x - low) * (x - high));
-    return x > high ? beyond : between;
+    precise float dividend = x * high - b.x * (x + high) + b.y;
+    precise float divisor = (high - low) * (x - low);
+    if (!(x > high)) return sm_quotient_or_zero(dividend, divisor);
+    dividend = low * high - b.x * (low + high) + b.y;
+    divisor = (x - low) * (x - high);
+    precise float beyond = 1.0 - sm_quotient_or_zero(dividend, divisor);
+    return beyond;
 }
 
 // Never less than (1 - bias) times the share of the kernel at or beyond `depth`, up to rounding; never growing with it.

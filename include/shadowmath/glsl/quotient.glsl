@@ -26,4 +26,10 @@ float sm_quotient(float a, float b) {
     return corrected;
 }
 
+// The driver's own a / b, and 0 where b is 0.
+float sm_quotient_or_zero(float a, float b) {
+    precise float q = b != 0.0 ? a / b : 0.0;
+    return q;
+}
+
 #endif

@@ -104,9 +104,10 @@ template <class T>
     T const angle = beyond ? std::atan2(-line.y, -line.x) : std::atan2(line.y, line.x);
     constexpr T turns = T(table_steps) / T(6.283185307179586476925286766559L);
     int const k = static_cast<int>(std::floor(angle * turns)) & (table_steps - 1);
-    int const j = static_cast<int>(std::abs(r) / reach * T(table_steps));
-    std::uint32_t const mask =
-        table.masks[static_cast<std::size_t>(k * table_steps + (j < table_steps ? j : table_steps - 1))];
+    // NOTE: as an unsigned number: under -ffast-math a length that overflows gives any j at all.
+    unsigned const j = static_cast<unsigned>(static_cast<int>(std::abs(r) / reach * T(table_steps)));
+    unsigned const last = table_steps - 1;
+    std::uint32_t const mask = table.masks[static_cast<unsigned>(k) * table_steps + (j < last ? j : last)];
     return beyond ? ~mask : mask;
 }
 

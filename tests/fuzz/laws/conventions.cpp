@@ -40,7 +40,9 @@ void try_conventions(Case& c) {
     T const x = dyadic<T>(c, -2, 2), y = dyadic<T>(c, -2, 2), z = dyadic<T>(c, -1, 2);
     T const occluder = dyadic<T>(c, 0, 1), receiver = dyadic<T>(c, 0, 1), bias = dyadic<T>(c, 0, 1) / T(8);
     c.require(laws::converts_both_ways<T>(clip), "conversions are exact inverses");
+#if !defined(__FAST_MATH__)  // a quotient by 1 need not be exact there
     c.require(laws::reads_where_it_was_written(clip, Vec3<T>(x, y, z)), "a map is read where it was written");
+#endif
     c.require(laws::keeps_the_decision(clip, occluder, receiver, bias), "conventions change no decision");
     c.require(laws::is_lit_by_a_cleared_map(clip, receiver), "a cleared map shadows nothing");
 }
