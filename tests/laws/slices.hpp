@@ -52,6 +52,18 @@ template <class T>
     return 64 * static_cast<long double>(std::numeric_limits<T>::epsilon()) * farthest;
 }
 
+// A matrix of the same numbers, to the roundings of an offset far from the origin.
+template <class T>
+[[nodiscard]] bool is_nearly(Mat4<T> const& ours, Mat4<T> const& twin) {
+    T const eps = T(16) * std::numeric_limits<T>::epsilon();
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) {
+            T const size = std::abs(twin[column][row]) + (column == 3 ? T(1) : T(0));
+            if (!(std::abs(ours[column][row] - twin[column][row]) <= eps * size)) return false;
+        }
+    return true;
+}
+
 // The body fills the part of the map that the border leaves free, but for what rounding is allowed.
 template <class T>
 [[nodiscard]] bool is_filled(Mat4<T> const& clip_from_world, ClipSpace clip, ViewVolume<T> const& part, T border) {

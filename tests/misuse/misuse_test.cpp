@@ -99,3 +99,41 @@ TEST_F(MisuseDeathTest, IrregularListsWithoutTheirArraysAssert) {
     casters.triangle_count = casters.vertex_count = 3;
     EXPECT_DEATH(trace(buffer, casters), "casters need positions");
 }
+
+TEST_F(MisuseDeathTest, AChoiceOfMapsWithoutItsSamplesTilesOrReceiversAsserts) {
+    static MapSearch<float> work;
+    ViewVolume<float> const view;
+    Light<float> const light;
+    Aabb<float> const casters{glm::vec3(-1), glm::vec3(1)};
+    MapLimits<float> const limits;
+    SurfacePoint<float> const* const no_samples = nullptr;
+    Aabb<float> const* const no_receivers = nullptr;
+    float const depth = 1.0f;
+    auto const from_tiles = [&](int sample_count, DepthTiles<float> const& tiles) {
+        return choose_maps(view, light, casters, no_samples, sample_count, tiles, limits, work).count;
+    };
+    EXPECT_DEATH((void)from_tiles(4, {&depth, &depth, 1, 1}), "a choice needs its samples");
+    EXPECT_DEATH((void)from_tiles(0, {&depth, nullptr, 1, 1}), "tiles need both depths");
+    EXPECT_DEATH((void)from_tiles(0, {nullptr, &depth, 1, 1}), "tiles need both depths");
+    EXPECT_DEATH((void)choose_maps(view, light, casters, no_receivers, 2, limits, work),
+                 "a choice needs its receivers");
+    EXPECT_EQ(from_tiles(0, {nullptr, nullptr, 0, 1}), 0) << "none of none is no misuse";
+    EXPECT_EQ(choose_maps(view, light, casters, no_receivers, 0, limits, work).count, 0);
+}
+
+TEST_F(MisuseDeathTest, SlicesOfViewsWithoutArraysOrWithTooManySplitsAssert) {
+    ViewVolume<float> const view;
+    LightBasis<float> const basis;
+    glm::mat4 maps[max_splits];
+    ViewVolume<float> const* const no_views = nullptr;
+    auto const fit = [&](ViewVolume<float> const* views, int count, int splits, glm::mat4* into) {
+        return fit_slice_boxes_of(views, count, basis, splits, 0.5f, 0.0f, gl_clip, into);
+    };
+    EXPECT_DEATH((void)fit(no_views, 1, 4, maps), "fit_slice_boxes_of needs views, and room for their maps");
+    EXPECT_DEATH((void)fit(&view, 1, 4, nullptr), "fit_slice_boxes_of needs views, and room for their maps");
+    for (int const splits : {-1, 0, max_splits + 1})
+        EXPECT_DEATH((void)fit(&view, 1, splits, maps), "fit_slice_boxes_of makes one to max_splits maps a view")
+            << splits;
+    EXPECT_EQ(fit(no_views, 0, 4, nullptr), 0) << "none of none is no misuse";
+    EXPECT_EQ(fit(&view, 1, max_splits, maps), 1);
+}

@@ -31,18 +31,6 @@ std::vector<ViewVolume<T>> some_views(std::size_t count, std::size_t odd) {
     return views;
 }
 
-// A matrix of the same numbers, to the roundings of an offset far from the origin.
-template <class T>
-bool is_near(Mat4<T> const& ours, Mat4<T> const& twin) {
-    T const eps = T(16) * std::numeric_limits<T>::epsilon();
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row) {
-            T const size = std::abs(twin[column][row]) + (column == 3 ? T(1) : T(0));
-            if (!(std::abs(ours[column][row] - twin[column][row]) <= eps * size)) return false;
-        }
-    return true;
-}
-
 }  // namespace
 
 TYPED_TEST(SlicesOfViewsProperty, AreThoseOfTheViewsOneByOne) {
@@ -64,7 +52,7 @@ TYPED_TEST(SlicesOfViewsProperty, AreThoseOfTheViewsOneByOne) {
             Mat4<T> twin[max_splits];
             RC_ASSERT(fit_slice_boxes(views[i], basis, planes, border, clip, twin));
             for (std::size_t k = 0; k < each; ++k) {
-                RC_ASSERT(is_near(maps[each * i + k], twin[k]));
+                RC_ASSERT(laws::is_nearly(maps[each * i + k], twin[k]));
                 ViewVolume<T> const part = slice(views[i], slice_range(planes, static_cast<int>(k)));
                 RC_ASSERT(laws::holds_corners(maps[each * i + k], clip, part, 2 * static_cast<long double>(border)));
             }

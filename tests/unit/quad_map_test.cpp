@@ -3,13 +3,12 @@
 #include "tests/laws/shadow_map.hpp"
 
 #include <shadowmath/bias.hpp>
-#include <shadowmath/fit_quad.hpp>
+#include <shadowmath/quad_map.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 using namespace shadowmath;
 
@@ -30,43 +29,6 @@ V3 side(V2 point, V2 inward) {
 QuadSides<double> lopsided() {
     return {side({-3, 0}, {1, 0.2}), side({5, 1}, {-1, 0.1}), side({0, -2}, {0.1, 1}), side({1, 4}, {-0.2, -1})};
 }
-
-LightSample<double> sample_at(V2 place, V2 reach = V2(0)) {
-    LightSample<double> sample;
-    sample.place = place;
-    sample.gain_x = V2(40.0 / (8.0 + place.y), 0.0);
-    sample.gain_y = V2(0.0, 40.0 / (8.0 + place.y));
-    sample.reach_x = V2(reach.x, 0.0);
-    sample.reach_y = V2(0.0, reach.y);
-    sample.usable = true;
-    return sample;
-}
-
-struct Cloud {
-    std::vector<LightSample<double>> samples;
-    std::vector<std::uint16_t> list;
-    Supports<double> supports;
-
-    Cloud() {
-        for (int y = 0; y < 12; ++y)
-            for (int x = 0; x < 12; ++x) {
-                // A wedge that opens toward +y, leaning to the right.
-                double const depth = y * 1.5, half = 2.0 + 0.6 * depth;
-                samples.push_back(sample_at({0.3 * depth + half * (x / 5.5 - 1.0), depth}, {0.05, 0.1}));
-                list.push_back(static_cast<std::uint16_t>(list.size()));
-            }
-        supports = no_supports(frame_of(samples.data(), list.data(), int(list.size())));
-        for (auto const& sample : samples) add(supports, sample);
-    }
-    [[nodiscard]] QuadFit<double> fit() const {
-        return fit_quad(supports, samples.data(), list.data(), int(list.size()), 1020.0);
-    }
-    [[nodiscard]] double price(Quad<double> const& quad) const {
-        double sum = 0.0;
-        for (auto const& sample : samples) sum += price_of(major_at(quad, 1020.0, sample));
-        return sum;
-    }
-};
 
 }  // namespace
 
@@ -164,49 +126,4 @@ TEST(QuadMap, APlaneInAShearedMapKeepsItsSlope) {
     DepthSlope<double> const whole = slope(map, 1024, V3(0), steep, 1.0);
     EXPECT_EQ(believed.x, whole.x);
     EXPECT_EQ(believed.y, whole.y);
-}
-
-TEST(FitQuad, HoldsEverySampleWithItsWholeCell) {
-    Cloud const cloud;
-    QuadFit<double> const fit = cloud.fit();
-    ASSERT_TRUE(fit.quad.visible);
-    EXPECT_TRUE(laws::fills_the_square(fit.quad));
-    for (auto const& sample : cloud.samples)
-        for (double const a : {-1.0, 1.0})
-            for (double const b : {-1.0, 1.0})
-                EXPECT_TRUE(is_in(fit.quad, sample.place + a * sample.reach_x + b * sample.reach_y));
-}
-
-TEST(FitQuad, CostsNoMoreThanTheBestRectangleAndThanAnySideTurnedAlone) {
-    Cloud const cloud;
-    QuadFit<double> const fit = cloud.fit();
-    EXPECT_NEAR(fit.price, cloud.price(fit.quad), 1e-9 * fit.price);
-    auto const price_at = [&](std::array<int, 4> direction) {
-        Quad<double> const quad = quad_at(cloud.supports, direction);
-        return quad.visible ? cloud.price(quad) : std::numeric_limits<double>::max();
-    };
-    double least = std::numeric_limits<double>::max();
-    for (int r = 0; r < 16; ++r) least = std::min(least, price_at({r + 32, r, r + 48, r + 16}));
-    EXPECT_LT(fit.price, 0.9 * least) << "a wedge that opens away from the eye is worth a warp";
-    for (unsigned k = 0; k < 4; ++k)
-        for (int const turn : {-1, 1}) {
-            std::array<int, 4> moved = fit.direction;
-            moved[k] += turn;
-            EXPECT_GE(price_at(moved), fit.price * 0.999);
-        }
-}
-
-TEST(FitQuad, OfNothingIsNothing) {
-    Supports<double> const none = no_supports(SampleFrame<double>{});
-    EXPECT_FALSE(fit_quad(none, static_cast<LightSample<double> const*>(nullptr), nullptr, 0, 1020.0).quad.visible);
-}
-
-TEST(FitQuad, PricesATexelByThePixelsThatComeOutWrong) {
-    double last = -1.0;
-    for (double major = 0.01; major < 1e6; major *= 1.1) {
-        double const price = price_of(major);
-        EXPECT_GT(price, last);
-        last = price;
-    }
-    EXPECT_LT(price_of(1e6), 61.0) << "lost is lost";
 }
