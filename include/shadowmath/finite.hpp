@@ -97,5 +97,25 @@ template <class T>
     return {scaled / length, length * largest, true};
 }
 
+namespace detail {
+
+// The length of (a, b) to an ulp, where neither is NaN or infinite; no square over- or underflows. With a root alone:
+// the last bit of std::hypot is the platform's.
+template <class T>
+[[nodiscard]] inline T hypotenuse(T a, T b) noexcept {
+    using Exact = decltype(T() + double());
+    Exact x = Exact(a), y = Exact(b);
+    if (sizeof(T) == sizeof(float)) return T(std::sqrt(x * x + y * y));
+    // By a power of two, which is exact.
+    constexpr Exact up = Exact(0x1p700), down = Exact(0x1p-700);
+    Exact const largest = std::abs(x) > std::abs(y) ? std::abs(x) : std::abs(y);
+    Exact const power = largest < Exact(0x1p-400) ? up : (largest > Exact(0x1p400) ? down : Exact(1));
+    x *= power, y *= power;
+    Exact const back = power < Exact(1) ? up : (power > Exact(1) ? down : Exact(1));
+    return T(std::sqrt(x * x + y * y) * back);
+}
+
+}  // namespace detail
+
 }  // namespace v0
 }  // namespace shadowmath

@@ -95,7 +95,7 @@ template <class T>
     T const eye_det = eye.s.x * eye.t.y - eye.s.y * eye.t.x;
     T const a = eye.s.x * map.t.y - eye.t.x * map.s.y, b = eye.t.x * map.s.x - eye.s.x * map.t.x;
     T const c = eye.s.y * map.t.y - eye.t.y * map.s.y, d = eye.t.y * map.s.x - eye.s.y * map.t.x;
-    T const stretch = (std::hypot(a + d, c - b) + std::hypot(a - d, c + b)) * T(0.5);
+    T const stretch = (detail::hypotenuse(a + d, c - b) + detail::hypotenuse(a - d, c + b)) * T(0.5);
     T const pixels_per_texel = bounded_quotient(eye.scale, map.scale, limit * limit);
     T const major = bounded_quotient(stretch * pixels_per_texel, std::abs(map_det), limit);
     T const minor = bounded_quotient(std::abs(eye_det) * pixels_per_texel, stretch, limit);

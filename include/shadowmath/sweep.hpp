@@ -95,7 +95,7 @@ template <class T>
         T const length = glm::length(Vec3<T>(body.half_space[face]));
         if (used[face] && !(lit[face] > T(0)) && length > T(0)) detail::add(swept, body.half_space[face] / length);
     }
-    T const sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+    T const sine = padding.sun_slope / detail::hypotenuse(T(1), padding.sun_slope);
     for (unsigned i = 0; i < static_cast<unsigned>(swept.count); ++i) {
         // The way to the edge of the sun must not leave through the plane: its normal rises at least by the sun's sine.
         Vec3<T> const normal(swept.at[i]);

@@ -37,4 +37,14 @@ template <class T>
     return unit.ok && straight && is_unit && measured;
 }
 
+// The hypotenuse of finite sides, to an ulp; the platform's, whose own last bit is its own, is the judge.
+template <class T>
+[[nodiscard]] bool is_hypotenuse(T length, T a, T b) {
+    long double const wanted = std::hypot(static_cast<long double>(a), static_cast<long double>(b));
+    if (wanted > static_cast<long double>(std::numeric_limits<T>::max())) return true;
+    constexpr long double eps = std::numeric_limits<T>::epsilon();
+    return std::abs(static_cast<long double>(length) - wanted) <=
+           eps * wanted + static_cast<long double>(std::numeric_limits<T>::denorm_min());
+}
+
 }  // namespace shadowmath::laws

@@ -28,3 +28,11 @@ TYPED_TEST(FiniteProperty, NormalizesEveryFiniteVector) {
         RC_ASSERT(watched([&v] { return safe_normalize(v); }).calm());
     }));
 }
+
+TYPED_TEST(FiniteProperty, TheHypotenuseOfFiniteSidesIsRightToAnUlp) {
+    EXPECT_TRUE(rc::check([] {
+        TypeParam const a = *nasty<TypeParam>(), b = *nasty<TypeParam>();
+        RC_PRE(all_finite(&a, 1) && all_finite(&b, 1));
+        RC_ASSERT(laws::is_hypotenuse(detail::hypotenuse(a, b), a, b));
+    }));
+}

@@ -54,3 +54,17 @@ TYPED_TEST(Finite, NormalizesVectorsOfTheSmallestAndTheLargestNumbers) {
         EXPECT_EQ(safe_normalize(Vec3<T>(T(3), T(0), T(4))).length, T(5));
     }
 }
+
+TYPED_TEST(Finite, AHypotenuseOfTheSmallestAndTheLargestSidesIsRightToAnUlp) {
+    using T = TypeParam;
+    using Limits = std::numeric_limits<T>;
+    EXPECT_EQ(detail::hypotenuse(T(3), T(-4)), T(5));
+    EXPECT_EQ(detail::hypotenuse(T(0), T(0)), T(0));
+    if constexpr (!std::is_same_v<T, long double>)
+        for (T const size : {Limits::denorm_min(), Limits::min(), T(1e-20), T(1e20), Limits::max() / T(2)})
+            for (T const share : {T(0), T(1e-7), T(0.3), T(1)}) {
+                T const other = size * share;
+                EXPECT_TRUE(laws::is_hypotenuse(detail::hypotenuse(size, other), size, other)) << size << " " << other;
+                EXPECT_TRUE(laws::is_hypotenuse(detail::hypotenuse(-other, size), -other, size)) << size;
+            }
+}

@@ -24,6 +24,7 @@ void try_grids(Case& c) {
     Vec3<T> const point = moved.center + point_within<T>(c, T(1));
     if (!grid.faults.any() && !after.faults.any())
         c.require(laws::keeps_its_place_in_the_texel(grid, after, clip, point), "a point keeps its place in a texel");
+    c.hash(clip_from_world(grid, T(0), T(1), clip));
     for (T* const number : {&sphere.center.x, &sphere.center.z, &sphere.radius, &margin, &basis.x.y})
         if (c.one_in(2)) *number = c.number<T>();
     T const lo = c.number<T>(), hi = c.number<T>();
@@ -96,6 +97,7 @@ void try_slices(Case& c) {
             laws::slice_rounding(part) * glm::length(Vec3<long double>(Vec4<long double>(row(spheres[i], 0))));
         c.require(laws::holds_corners(spheres[i], clip, part, 2 * 2.0L / size - rounding), "spheres hold every corner");
         c.require(laws::is_on_the_grid(spheres[i], basis, part, size, T(2), clip), "spheres stand on the texel grid");
+        c.hash(boxes[i]);
     }
     spoil(c, view);
     if (c.one_in(3)) splits.plane[c.below(splits.count + 1)] = c.number<T>();

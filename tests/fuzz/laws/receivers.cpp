@@ -46,6 +46,7 @@ void try_receivers(Case& c) {
     Footprint<T> const texel = c.call([&] {
         return footprint(eye.clip_from_world, Vec2<T>(T(800), T(600)), map.clip_from_world, T(map_size), point, normal);
     });
+    c.hash(&texel.major, 1);
     c.require(laws::is_footprint(texel), "a footprint is two ordered, bounded lengths");
     ShadowMap<T> const maps[] = {map, eye};
     LookUp<T> const look_up = c.call([&] { return by_map(maps, 2, map_size, T(2), point); });
