@@ -171,6 +171,26 @@ template <class T>
     return {scaled / length, length * largest, true};
 }
 
+namespace detail {
+
+// The length of (a, b) to an ulp, where neither is NaN or infinite; no square over- or underflows. With a root alone:
+// the last bit of std::hypot is the platform's.
+template <class T>
+[[nodiscard]] inline T hypotenuse(T a, T b) noexcept {
+    using Exact = decltype(T() + double());
+    Exact x = Exact(a), y = Exact(b);
+    if (sizeof(T) == sizeof(float)) return T(std::sqrt(x * x + y * y));
+    // By a power of two, which is exact.
+    constexpr Exact up = Exact(0x1p700), down = Exact(0x1p-700);
+    Exact const largest = std::abs(x) > std::abs(y) ? std::abs(x) : std::abs(y);
+    Exact const power = largest < Exact(0x1p-400) ? up : (largest > Exact(0x1p400) ? down : Exact(1));
+    x *= power, y *= power;
+    Exact const back = power < Exact(1) ? up : (power > Exact(1) ? down : Exact(1));
+    return T(std::sqrt(x * x + y * y) * back);
+}
+
+}  // namespace detail
+
 }  // namespace v0
 }  // namespace shadowmath
 
@@ -3682,7 +3702,7 @@ template <class T>
         T const length = glm::length(Vec3<T>(body.half_space[face]));
         if (used[face] && !(lit[face] > T(0)) && length > T(0)) detail::add(swept, body.half_space[face] / length);
     }
-    T const sine = padding.sun_slope / std::hypot(T(1), padding.sun_slope);
+    T const sine = padding.sun_slope / detail::hypotenuse(T(1), padding.sun_slope);
     for (unsigned i = 0; i < static_cast<unsigned>(swept.count); ++i) {
         // The way to the edge of the sun must not leave through the plane: its normal rises at least by the sun's sine.
         Vec3<T> const normal(swept.at[i]);
@@ -4286,7 +4306,7 @@ template <class T>
     T const eye_det = eye.s.x * eye.t.y - eye.s.y * eye.t.x;
     T const a = eye.s.x * map.t.y - eye.t.x * map.s.y, b = eye.t.x * map.s.x - eye.s.x * map.t.x;
     T const c = eye.s.y * map.t.y - eye.t.y * map.s.y, d = eye.t.y * map.s.x - eye.s.y * map.t.x;
-    T const stretch = (std::hypot(a + d, c - b) + std::hypot(a - d, c + b)) * T(0.5);
+    T const stretch = (detail::hypotenuse(a + d, c - b) + detail::hypotenuse(a - d, c + b)) * T(0.5);
     T const pixels_per_texel = bounded_quotient(eye.scale, map.scale, limit * limit);
     T const major = bounded_quotient(stretch * pixels_per_texel, std::abs(map_det), limit);
     T const minor = bounded_quotient(std::abs(eye_det) * pixels_per_texel, stretch, limit);
