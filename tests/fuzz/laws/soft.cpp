@@ -125,7 +125,7 @@ void try_moments(Case& c) {
     for (T const share : {c.call([&] { return vsm_visibility(Vec2<T>(any), a, b); }),
                           c.call([&] { return evsm_visibility(any, b, warp, a); }),
                           c.call([&] { return msm_visibility(any, b, a); }), less_bleeding(a, b)})
-        c.require(laws::is_share_of_light(share), "moments of anything are a share of light");
+        c.require(fast_math || laws::is_share_of_light(share), "moments of anything are a share of light");
     c.require(all_finite(vsm_moments(a)) && all_finite(msm_packed(msm_moments(a))) && all_finite(evsm_moments(a, warp)),
               "moments are finite");
 }
