@@ -46,8 +46,10 @@ std::vector<std::string> matches(std::string const& text, std::regex const& patt
 
 // From a function's name to the brace that closes it, in the first column.
 std::string body_of(std::string const& text, std::string const& name) {
-    std::size_t const begin = text.find(" " + name + "(");
-    return begin == std::string::npos ? std::string() : text.substr(begin, text.find("\n}", begin) - begin);
+    std::smatch found;
+    if (!std::regex_search(text, found, std::regex("\n\\w+ " + name + "\\("))) return {};
+    auto const begin = static_cast<std::size_t>(found.position());
+    return text.substr(begin, text.find("\n}", begin) - begin);
 }
 
 std::vector<std::string> includes_of(fs::path const& path) {
@@ -127,6 +129,8 @@ TEST(House, EveryFunctionOfTheGlslLibraryIsHeldAgainstTheCppByATwin) {
     std::string asked, library;
     for (fs::directory_entry const& entry : fs::directory_iterator(root / "tests/twins"))
         if (entry.path().extension() == ".comp") asked += code_of(entry.path());
+    for (fs::directory_entry const& entry : fs::directory_iterator(root / "include/shadowmath/glsl"))
+        library += code_of(entry.path());
     int count = 0;
     for (fs::directory_entry const& entry : fs::directory_iterator(root / "include/shadowmath/glsl")) {
         std::string const text = code_of(entry.path());
@@ -137,7 +141,7 @@ TEST(House, EveryFunctionOfTheGlslLibraryIsHeldAgainstTheCppByATwin) {
                 EXPECT_TRUE(calls(asked, name)) << entry.path() << ": no shader of tests/twins asks " << name;
                 continue;
             }
-            std::string const caller = body_of(text, step->second);
+            std::string const caller = body_of(library, step->second);
             EXPECT_TRUE(calls(asked, step->second) && calls(caller, name)) << name << " is no step of " << step->second;
         }
     }
