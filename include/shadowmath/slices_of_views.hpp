@@ -18,7 +18,9 @@
 #include <shadowmath/wide.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace shadowmath {
@@ -27,7 +29,7 @@ namespace detail {
 
 inline constexpr int views_at_once = 32;
 
-// Four slices of each of eight views, where all of these are ordinary perspective views; otherwise nothing is written,
+// Four slices of each of views_at_once views, where all of these are ordinary perspective views; otherwise nothing is written,
 // and `ordinary` is false.
 template <class T>
 struct SlicesOfViews {
@@ -184,7 +186,7 @@ struct SlicesOfViews {
 // clip_from_world[splits * i + k] is the map of slice k of view i: what fit_slice_boxes gives for the practical splits
 // of the view from z_near to z_far, to a few roundings; maps of slices that there are not, or of views that none can be
 // made for, are nowhere(). Says for how many views all maps are there. Four splits are the fast case; views that are
-// orthographic or have anything odd are made one by one, and so are the seven beside them.
+// orthographic or have anything odd are made one by one, and so are those beside them.
 template <class T>
 [[nodiscard]] inline int fit_slice_boxes_of(ViewVolume<T> const* views, int view_count, LightBasis<T> const& basis,
                                             int splits, T lambda, T border, ClipSpace clip,
