@@ -29,8 +29,8 @@ namespace detail {
 
 inline constexpr int views_at_once = 32;
 
-// Four slices of each of views_at_once views, where all of these are ordinary perspective views; otherwise nothing is written,
-// and `ordinary` is false.
+// Four slices of each of views_at_once views, where all of these are ordinary perspective views; otherwise nothing is
+// written, and `ordinary` is false.
 template <class T>
 struct SlicesOfViews {
     ViewVolume<T> const* views;
