@@ -15,9 +15,9 @@
 
 namespace shadowmath::laws {
 
-// Corners that no rounding has moved.
+// The same view, to be computed with where no rounding shows.
 template <class T>
-[[nodiscard]] std::array<Vec3<long double>, 8> exact_corners(ViewVolume<T> const& part) {
+[[nodiscard]] ViewVolume<long double> exact_view(ViewVolume<T> const& part) {
     using Real = long double;
     ViewVolume<Real> exact;
     exact.pose = {Vec3<Real>(part.pose.position), Vec3<Real>(part.pose.right), Vec3<Real>(part.pose.up),
@@ -25,7 +25,13 @@ template <class T>
     exact.left = part.left, exact.right = part.right, exact.bottom = part.bottom, exact.top = part.top;
     exact.z_near = part.z_near, exact.z_far = part.z_far;
     exact.kind = part.kind;
-    return corners(exact);
+    return exact;
+}
+
+// Corners that no rounding has moved.
+template <class T>
+[[nodiscard]] std::array<Vec3<long double>, 8> exact_corners(ViewVolume<T> const& part) {
+    return corners(exact_view(part));
 }
 
 // `margin_ndc` inside the four sides, and between the ends.

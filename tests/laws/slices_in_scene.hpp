@@ -32,12 +32,7 @@ template <class T>
 [[nodiscard]] Aabb<long double> clipped_bounds(ViewVolume<T> const& part, LightBasis<T> const& basis,
                                                Aabb<T> const& scene, long double slack) {
     using Real = long double;
-    ViewVolume<Real> exact;
-    exact.pose = {Vec3<Real>(part.pose.position), Vec3<Real>(part.pose.right), Vec3<Real>(part.pose.up),
-                  Vec3<Real>(part.pose.forward)};
-    exact.left = part.left, exact.right = part.right, exact.bottom = part.bottom, exact.top = part.top;
-    exact.z_near = part.z_near, exact.z_far = part.z_far;
-    exact.kind = part.kind;
+    ViewVolume<Real> const exact = exact_view(part);
     LightBasis<Real> const axes{Vec3<Real>(basis.x), Vec3<Real>(basis.y), Vec3<Real>(basis.depth)};
     Aabb<Real> const box{Vec3<Real>(scene.lo), Vec3<Real>(scene.hi)};
     Aabb<Real> bounds;
