@@ -29,8 +29,7 @@ options.clip = sm::vulkan_clip;                  // or gl_clip, d3d_clip, revers
 auto cascades = sm::fit_cascades(view, sun, casters, receivers, options);
 for (auto const& c : cascades)                   // one matrix, one split distance
     if (c.map.visible) draw_depth(c.map.clip_from_world, c.range.end);
-if (cascades.faults.any())                       // bad data is said, never thrown
-    log(sm::describe(cascades.faults));
+if (cascades.faults.any()) log(sm::describe(cascades.faults));  // said, never thrown
     // clang-format on
     return drawn;
 }
