@@ -231,6 +231,20 @@ TYPED_TEST(CascadesOf, OptionsOutsideTheirRangesAreClampedAndSaid) {
     EXPECT_TRUE(this->fitted().at[0].map.visible);
 }
 
+TYPED_TEST(CascadesOf, ABlendOutsideItsRangeIsTheNearestOne) {
+    using T = TypeParam;
+    auto const with = [this](T blend) {
+        this->options.blend = blend;
+        return this->fitted();
+    };
+    auto const whole = with(T(1)), none = with(T(0));
+    EXPECT_FALSE(whole.faults.any()) << "from end to end is a blend too";
+    EXPECT_EQ(whole.at[1].range.blend_begin, whole.at[0].range.end);
+    EXPECT_EQ(none.at[1].range.blend_begin, none.at[1].range.end);
+    EXPECT_EQ(with(T(7)).at[1].range.blend_begin, whole.at[1].range.blend_begin);
+    EXPECT_EQ(with(T(-1)).at[1].range.blend_begin, none.at[1].range.blend_begin);
+}
+
 TYPED_TEST(CascadesOf, AMessyPoseWithinAThousandthIsMended) {
     using T = TypeParam;
     auto const clean = this->fitted();

@@ -100,6 +100,9 @@ TEST(CasterMask, OfAnEmptyBoxIsNothingAndOfABrokenOneEverything) {
     EXPECT_EQ(caster_mask(maps, Aabb<double>{V3(900), V3(901, 901, inf)}), 0b111);
     EXPECT_EQ(caster_mask(maps, Aabb<double>{V3(-most), V3(most)}), 0b111);
     EXPECT_EQ(caster_mask(maps, cube(V3(0), 1e17)), 0b111);
+    // Reach ends before 2^60 m.
+    EXPECT_EQ(caster_mask(maps, cube(V3(0x1p60, 0, 0), 0)), 0b111);
+    EXPECT_EQ(caster_mask(maps, cube(V3(0x1.fp59, 0, 0), 0)), 0);
 }
 
 TEST(CasterMask, OfAMapThatIsNotVisibleOrNotFiniteIsClearAndKeepsItsPlace) {

@@ -104,7 +104,7 @@ TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
     EXPECT_FALSE(this->range({Vec3<T>(nan), Vec3<T>(1)}, this->ground).visible);
     EXPECT_FALSE(this->range(this->tower, {Vec3<T>(-1), Vec3<T>(infinity)}).visible);
     EXPECT_FALSE(this->range(this->tower, {Vec3<T>(50), Vec3<T>(60)}).visible);
-    for (T const bad : {nan, infinity, std::numeric_limits<T>::max()}) {
+    for (T const bad : {nan, infinity, std::numeric_limits<T>::max(), T(4e18L)}) {
         LightBox<T> spoiled = this->sides;
         spoiled.hi.x = bad;
         EXPECT_FALSE(depth_range(spoiled, this->slice, this->tower, this->ground, false).visible);
@@ -123,6 +123,7 @@ TYPED_TEST(DepthRangeOf, PointsAndPlanesHaveAnExtentToo) {
     Aabb<T> const floor{Vec3<T>(-100, 0, -100), Vec3<T>(100, 0, 100)};
     EXPECT_TRUE(this->range(floor, floor).visible);
     EXPECT_TRUE(laws::is_a_range(this->range(floor, floor)));
+    EXPECT_GE(this->range(floor, floor).hi - this->range(floor, floor).lo, T(0.99e-6L)) << "a micrometre at least";
     EXPECT_TRUE(this->close(this->range(point, this->ground).lo, 0));
 }
 

@@ -94,6 +94,17 @@ TYPED_TEST(FitBox, StaysABoxWhateverIsGiven) {
     EXPECT_TRUE(laws::is_a_box(fit_box(LightBasis<T>{}, brick(Vec3<T>(T(-1e18L)), Vec3<T>(T(1e18L))), 100, T(2))));
 }
 
+TYPED_TEST(FitBox, BoundsBeyondReachHaveTheBoxOfNothing) {
+    using T = TypeParam;
+    T const farthest = detail::farthest_metres<T>;
+    LightBox<T> const nothing;
+    for (T const at : {T(2.5) * farthest, T(-2.5) * farthest}) {
+        Aabb<T> const body = merge(Aabb<T>{Vec3<T>(T(-1)), Vec3<T>(T(1))}, Vec3<T>(T(0), at, T(0)));
+        LightBox<T> const box = box_around(LightBasis<T>{}, body, 100, T(2));
+        EXPECT_TRUE(box.lo == nothing.lo && box.hi == nothing.hi && box.depth_lo == nothing.depth_lo);
+    }
+}
+
 TEST(Margin, NamesWhatIsWrongWithIt) {
     EXPECT_FALSE(faults_of_margin(3, 0.0).any());
     EXPECT_FALSE(faults_of_margin(7, 2.0).any());
