@@ -86,6 +86,13 @@ struct CasterKernel {
         return any;
     }
 
+    void fetch(std::uint32_t triangle) const noexcept {
+        if (casters.index != nullptr) return;
+        T const* const from = casters.position + std::size_t{3} * triangle * static_cast<std::size_t>(casters.stride);
+        __builtin_prefetch(from);
+        __builtin_prefetch(from + 8);
+    }
+
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
         batch.sound = 0;

@@ -128,7 +128,7 @@ template <class T>
 // False where the nodes are more than four for each part that there is room for.
 template <class T>
 [[nodiscard]] inline bool sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts) noexcept {
-    std::uint32_t const lists = divide_texels(buffer);
+    std::uint32_t const lists = buffer.list_count = divide_texels(buffer);
     std::memset(buffer.first, 0, (lists + 2) * sizeof(std::uint32_t));
     std::uint32_t* const end = buffer.first + 1;
     ListCounts& counts = buffer.counts;
@@ -146,11 +146,7 @@ template <class T>
         std::uint32_t const tile = parts.place[3 * i] & 0x0fffffffu;
         for_each_list(buffer, parts.place + 3 * i, [&](std::uint32_t list) {
             std::uint32_t const node = end[list]++;
-            buffer.lo_x[node] = bounds[0];
-            buffer.hi_x[node] = bounds[1];
-            buffer.lo_y[node] = bounds[2];
-            buffer.hi_y[node] = bounds[3];
-            buffer.depth[node] = bounds[4];
+            std::memcpy(buffer.bounds + 5 * std::size_t{node}, bounds, 5 * sizeof(T));
             buffer.tile[node] = tile;
         });
     }
