@@ -28,11 +28,16 @@ namespace detail {
 
 template <class T>
 struct Lanes {
+    static constexpr int fours = 1;
     T at[4];
 
     [[nodiscard]] static Lanes of(T a, T b, T c, T d) noexcept { return {{a, b, c, d}}; }
+    [[nodiscard]] static Lanes all(T a) noexcept { return {{a, a, a, a}}; }
     [[nodiscard]] T operator[](int i) const noexcept { return at[i]; }
 
+    friend Lanes absolute(Lanes const& a) noexcept {
+        return {{std::abs(a.at[0]), std::abs(a.at[1]), std::abs(a.at[2]), std::abs(a.at[3])}};
+    }
     friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept {
         return {{a.at[0] + b.at[0], a.at[1] + b.at[1], a.at[2] + b.at[2], a.at[3] + b.at[3]}};
     }
@@ -68,12 +73,23 @@ struct Lanes {
 
 template <>
 struct Lanes<float> {
+    static constexpr int fours = 1;
     using Register [[gnu::vector_size(16)]] = float;
     Register at;
 
     [[nodiscard]] static Lanes of(float a, float b, float c, float d) noexcept { return {Register{a, b, c, d}}; }
+    [[nodiscard]] static Lanes all(float a) noexcept { return {Register{a, a, a, a}}; }
     [[nodiscard]] float operator[](int i) const noexcept { return at[i]; }
 
+    friend Lanes absolute(Lanes const& a) noexcept {
+        using Bits [[gnu::vector_size(16)]] = std::uint32_t;
+        Bits bits;
+        std::memcpy(&bits, &a, sizeof bits);
+        bits &= 0x7fffffffu;
+        Lanes made;
+        std::memcpy(&made, &bits, sizeof bits);
+        return made;
+    }
     friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept { return {a.at + b.at}; }
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
@@ -113,6 +129,12 @@ template <class T>
     return Lanes<T>::of(four[1], four[2], four[3], after);
 }
 
+// The places a, b, c and d of the four.
+template <int a, int b, int c, int d, class T>
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four) noexcept {
+    return Lanes<T>::of(four[a], four[b], four[c], four[d]);
+}
+
 // Rows for columns.
 template <class T>
 inline void transpose(Lanes<T> (&rows)[4]) noexcept {
@@ -129,6 +151,10 @@ public:
     }
     // Parts of unit vectors: 2 and more is beyond, as the rounding that is allowed for would be too little.
     void look_at_parts(Lanes<T> const& four) noexcept { look_at(four * Lanes<T>::of(big, big, big, big)); }
+    // Whatever is finite is within reach.
+    void look_for_finite(Lanes<T> const& four) noexcept {
+        for (int i = 0; i < 4; ++i) beyond_ |= all_finite(&four.at[i], 1) ? 0 : ~decltype(beyond_)(0);
+    }
     [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
 
 private:
@@ -142,6 +168,11 @@ private:
 template <>
 [[nodiscard]] inline Lanes<float> moved_up(Lanes<float> const& four, float after) noexcept {
     return {__builtin_shufflevector(four.at, Lanes<float>::Register{after}, 1, 2, 3, 4)};
+}
+
+template <int a, int b, int c, int d>
+[[nodiscard]] inline Lanes<float> picked(Lanes<float> const& four) noexcept {
+    return {__builtin_shufflevector(four.at, four.at, a, b, c, d)};
 }
 
 template <>
@@ -169,6 +200,11 @@ public:
         Bits bits;
         std::memcpy(&bits, &four, sizeof bits);
         beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40000000u);
+    }
+    void look_for_finite(Lanes<float> const& four) noexcept {
+        Bits bits;
+        std::memcpy(&bits, &four, sizeof bits);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x7f800000u);
     }
     [[nodiscard]] bool any() const noexcept {
         std::uint64_t halves[2];
