@@ -129,17 +129,11 @@ template <class T>
     return Lanes<T>::of(four[1], four[2], four[3], after);
 }
 
-// The places a, b, c and d of the four.
+// The places a, b, c and d of the four; 4 to 7 are those of `more`.
 template <int a, int b, int c, int d, class T>
-[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four) noexcept {
-    return Lanes<T>::of(four[a], four[b], four[c], four[d]);
-}
-
-// Rows for columns.
-template <class T>
-inline void transpose(Lanes<T> (&rows)[4]) noexcept {
-    Lanes<T> const a = rows[0], b = rows[1], c = rows[2], d = rows[3];
-    for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four, Lanes<T> const& more) noexcept {
+    auto const at = [&](int i) { return i < 4 ? four[i] : more[i - 4]; };
+    return Lanes<T>::of(at(a), at(b), at(c), at(d));
 }
 
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
@@ -171,20 +165,8 @@ template <>
 }
 
 template <int a, int b, int c, int d>
-[[nodiscard]] inline Lanes<float> picked(Lanes<float> const& four) noexcept {
-    return {__builtin_shufflevector(four.at, four.at, a, b, c, d)};
-}
-
-template <>
-inline void transpose(Lanes<float> (&rows)[4]) noexcept {
-    auto const a = __builtin_shufflevector(rows[0].at, rows[1].at, 0, 4, 1, 5);
-    auto const b = __builtin_shufflevector(rows[2].at, rows[3].at, 0, 4, 1, 5);
-    auto const c = __builtin_shufflevector(rows[0].at, rows[1].at, 2, 6, 3, 7);
-    auto const d = __builtin_shufflevector(rows[2].at, rows[3].at, 2, 6, 3, 7);
-    rows[0].at = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-    rows[1].at = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-    rows[2].at = __builtin_shufflevector(c, d, 0, 1, 4, 5);
-    rows[3].at = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+[[nodiscard]] inline Lanes<float> picked(Lanes<float> const& four, Lanes<float> const& more) noexcept {
+    return {__builtin_shufflevector(four.at, more.at, a, b, c, d)};
 }
 #endif
 
@@ -218,6 +200,22 @@ private:
 };
 
 #endif
+
+template <int a, int b, int c, int d, class T>
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four) noexcept {
+    return picked<a, b, c, d>(four, four);
+}
+
+// Rows for columns.
+template <class T>
+inline void transpose(Lanes<T> (&rows)[4]) noexcept {
+    Lanes<T> const a = picked<0, 4, 1, 5>(rows[0], rows[1]), b = picked<0, 4, 1, 5>(rows[2], rows[3]);
+    Lanes<T> const c = picked<2, 6, 3, 7>(rows[0], rows[1]), d = picked<2, 6, 3, 7>(rows[2], rows[3]);
+    rows[0] = picked<0, 1, 4, 5>(a, b);
+    rows[1] = picked<2, 3, 6, 7>(a, b);
+    rows[2] = picked<0, 1, 4, 5>(c, d);
+    rows[3] = picked<2, 3, 6, 7>(c, d);
+}
 
 template <class T>
 [[nodiscard]] inline Lanes<T> four_at(T const* values) noexcept {

@@ -90,12 +90,12 @@ struct HalfStep {
 };
 
 // NOTE: no size is zero: an edge that is none must be seen on every axis.
-template <class L>
-[[nodiscard, gnu::always_inline]] inline HalfStep<L> half_of(Vectors<L> const& step) noexcept {
-    Vectors<L> const half = step * L::all(0.5f);
-    L const none = L::all(0), tiny = L::all(1e-12f);
-    auto const size = [&](L const& a) { return largest(a, none - a) + tiny; };
-    return {half, {size(half.x), size(half.y), size(half.z)}};
+template <class T>
+[[nodiscard, gnu::always_inline]] inline HalfStep<LongLanes<T>> half_of(FourVectors<T> const& step) noexcept {
+    Lanes<T> const half = all_four(T(0.5)), tiny = all_four(T(1e-18));
+    FourVectors<T> const halved = step * half;
+    auto const size = [&tiny](Lanes<T> const& a) { return absolute(a) + tiny; };
+    return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
 }
 
 // What edges, from `origin` on, reach between a and b: around their middle, by half their length. Where a > b an edge
@@ -104,7 +104,7 @@ template <class L>
 [[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
                                                                     L const& a, L const& b) noexcept {
     Vectors<L> const middle = origin + half.step * (a + b);
-    L const length = where_at_most(a, b, b - a, L::all(-1e37f));
+    L const length = where_at_most(a, b, b - a, L::all(-3e38f));
     Vectors<L> const reach = half.size * length;
     return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
 }
@@ -131,18 +131,19 @@ template <class L>
     return {least(a, b) - shift, largest(a, b) - shift};
 }
 
-// Nothing is divided by less than this; what it stands for is the same to far less than a rounding.
-template <class L>
-[[nodiscard, gnu::always_inline]] inline L not_zero(L const& value) noexcept {
-    L const tiny = L::all(1e-20f);
-    return where_at_most(tiny, largest(value, L::all(0) - value), value, tiny);
+// Nothing is divided by less than this. Planes are some epsilon of the view's reach farther out than they are: along
+// what leans less, none of them is met within a million times the length of an edge.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
+    Lanes<T> const tiny = all_four(T(1e-6) * std::numeric_limits<T>::epsilon());
+    return where_at_most(tiny, absolute(value), value, tiny);
 }
 
 // A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
 // at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
 template <class T>
 struct ViewOfBox {
-    Pose<T> const& pose;
+    Pose<T> const* pose;
     ViewInLight<T> lit;
     Lanes<T> slope;
     Lanes<T> offset;
@@ -235,11 +236,11 @@ template <class T>
     using Lanes = Lanes<T>;
     auto const four = [](Vec3<T> const& v) { return Lanes::of(v.x, v.y, v.z, T(0)); };
     // By how much each axis goes inward through each side, metres a metre.
-    Lanes const right = four(seen.pose.right), up = four(seen.pose.up), ahead = four(seen.pose.forward);
+    Lanes const right = four(seen.pose->right), up = four(seen.pose->up), ahead = four(seen.pose->forward);
     Lanes const inward[4] = {right - ahead * all_of<0>(seen.slope), ahead * all_of<1>(seen.slope) - right,
                              up - ahead * all_of<2>(seen.slope), ahead * all_of<3>(seen.slope) - up};
     // An edge enters where it goes inward, and leaves where not: what it does not do is moved out of the way.
-    constexpr T away = T(1e36);
+    constexpr T away = T(1e38);
     Lanes inverse[4], not_entered[4], not_left[4];
     for (int i = 0; i < 4; ++i) {
         Lanes const in = not_zero(inward[i]);
@@ -260,11 +261,12 @@ template <class T>
         Long const inside[4] = {along(inward[0]) - long_of<0>(seen.offset), along(inward[1]) + long_of<1>(seen.offset),
                                 along(inward[2]) - long_of<2>(seen.offset), along(inward[3]) + long_of<3>(seen.offset)};
         Long first = Long::all(T(0)), last = spread<Long>(length, axis);
-        for (int i = 0; i < 4; ++i) {
+        auto const cut = [&](int i) {
             Long const root = inside[i] * spread<Long>(inverse[i], axis);
             first = largest(first, root + spread<Long>(not_entered[i], axis));
             last = least(last, root + spread<Long>(not_left[i], axis));
-        }
+        };
+        cut(0), cut(1), cut(2), cut(3);
         auto const store = [axis](T* to, Long const& lanes) { std::memcpy(to + 4 * axis, &lanes, sizeof lanes); };
         auto const lit = [&](auto place) {
             constexpr int i = decltype(place)::value;
@@ -285,97 +287,113 @@ struct ExtentsOfSlices {
     T lo[3][16], hi[3][16];
 };
 
-// Four slices, from plane[0] to plane[4].
+// All edges of four slices and the box, from plane[0] to plane[4].
+template <class T>
+struct EdgesInLight {
+    using Four = Lanes<T>;
+    using Long = LongLanes<T>;
+
+    Four nearest, farthest;  // planes of each slice
+    Four begins, ends;       // and a little farther apart
+    EdgesOfBox<T> of_box;
+    HalfStep<Long> along[3];  // its axes
+    Four enter[3], leave[3];  // where the slices begin and end along them, had their edges no depth of their own
+    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top). Rays through them from depth 0.
+    LongVectors<T> from, ray;
+    HalfStep<Long> along_ray;
+    Long first_of_ray, last_of_ray;
+    // Sides of a split plane, from corner to corner: right, up, left, down; `length` metres at depth 0, `growth` more
+    // for every metre of depth, and their origins `shift` farther along them.
+    HalfStep<Long> along_side;
+    Passage<Long> side_in_x, side_in_y, side_in_z;
+    LongVectors<T> shift;
+    Long growth, length;
+
+    [[gnu::always_inline]] EdgesInLight(ViewOfBox<T> const& seen, T const* plane) noexcept {
+        auto const all = [](T value) { return all_four(value); };
+        auto const lit = [](Four const& v) { return FourVectors<T>{all_of<0>(v), all_of<1>(v), all_of<2>(v)}; };
+        Vec3<T> const &right = seen.pose->right, &up = seen.pose->up, &ahead = seen.pose->forward;
+        // NOTE: one by one, as they have mostly just been written.
+        nearest = Four::of(plane[0], plane[1], plane[2], plane[3]), farthest = moved_up(nearest, plane[4]);
+        begins = nearest - all(seen.slack), ends = farthest + all(seen.slack);
+        cut_box_edges(seen, of_box);
+        along[0] = half_of<T>(lit(seen.lit.x)), along[1] = half_of<T>(lit(seen.lit.y));
+        along[2] = half_of<T>(lit(seen.lit.z));
+        for (int axis = 0; axis < 3; ++axis) {
+            Four const per_ahead = all(of_box.per_ahead[axis]), a = begins * per_ahead, b = ends * per_ahead;
+            enter[axis] = least(a, b), leave[axis] = largest(a, b);
+        }
+        Four const x_slope = picked<0, 1, 1, 0>(seen.slope), y_slope = picked<2, 2, 3, 3>(seen.slope);
+        Four const x_offset = picked<0, 1, 1, 0>(seen.offset), y_offset = picked<2, 2, 3, 3>(seen.offset);
+        FourVectors<T> const right_lit = lit(seen.lit.right), up_lit = lit(seen.lit.up);
+        FourVectors<T> const corner = times(x_offset, right) + times(y_offset, up);
+        FourVectors<T> const outward = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
+        FourVectors<T> const outward_lit = right_lit * x_slope + up_lit * y_slope + lit(seen.lit.forward);
+        from = repeated<T>(right_lit * x_offset + up_lit * y_offset), ray = repeated<T>(outward_lit);
+        along_ray = half_of<T>(outward_lit);
+        FourVectors<T> const lo = lit(seen.lo), hi = lit(seen.hi);
+        Four const one = all(T(1));
+        Passage<Four> const x = passage(lo.x, hi.x, corner.x, one / not_zero(outward.x));
+        Passage<Four> const y = passage(lo.y, hi.y, corner.y, one / not_zero(outward.y));
+        Passage<Four> const z = passage(lo.z, hi.z, corner.z, one / not_zero(outward.z));
+        first_of_ray = repeated<Long>(largest(x.enter, largest(y.enter, z.enter)));
+        last_of_ray = repeated<Long>(least(x.leave, least(y.leave, z.leave)));
+        Four const sideways = Four::of(T(1), T(0), T(-1), T(0)), upward = Four::of(T(0), T(1), T(0), T(-1));
+        FourVectors<T> const side = times(sideways, right) + times(upward, up);
+        along_side = half_of<T>(right_lit * sideways + up_lit * upward);
+        Four const per_x = one / not_zero(side.x), per_y = one / not_zero(side.y), per_z = one / not_zero(side.z);
+        auto const sides = [](Passage<Four> const& p) {
+            return Passage<Long>{repeated<Long>(p.enter), repeated<Long>(p.leave)};
+        };
+        side_in_x = sides(passage(lo.x, hi.x, corner.x, per_x)), side_in_y = sides(passage(lo.y, hi.y, corner.y, per_y));
+        side_in_z = sides(passage(lo.z, hi.z, corner.z, per_z));
+        shift = repeated<T>(FourVectors<T>{outward.x * per_x, outward.y * per_y, outward.z * per_z});
+        auto const apart = [](Four const& of) { return picked<1, 3, 1, 3>(of) - picked<0, 2, 0, 2>(of); };
+        growth = repeated<Long>(apart(seen.slope)), length = repeated<Long>(apart(seen.offset));
+    }
+
+    // Planes are where they are: the box that their sides are cut by is larger.
+    [[nodiscard, gnu::always_inline]] ExtentInLanes<Long> of_sides(Long const& depth) const noexcept {
+        Long first = Long::all(T(0)), last = growth * depth + length;
+        side_in_x.cut(shift.x * depth, first, last);
+        side_in_y.cut(shift.y * depth, first, last);
+        side_in_z.cut(shift.z * depth, first, last);
+        return extent_of(from + ray * depth, along_side, first, last);
+    }
+
+    // For slices from i on; the far plane of one is the near plane of the next.
+    [[gnu::always_inline]] void bound(int i, ExtentInLanes<Long>& sides, ExtentsOfSlices<T>& of) const noexcept {
+        ExtentInLanes<Long> extent = sides;
+        if (Long::fours > 1) extent = of_sides(spread<Long>(nearest, i));
+        sides = of_sides(spread<Long>(farthest, i));
+        extent.add(sides);
+        extent.add(extent_of(from, along_ray, largest(first_of_ray, spread<Long>(begins, i)),
+                             least(last_of_ray, spread<Long>(ends, i))));
+        auto const add_edges = [&](int axis) {
+            auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
+            Long const ahead = at(of_box.ahead);
+            Long const first = largest(at(of_box.first), spread<Long>(enter[axis], i) - ahead);
+            Long const last = least(at(of_box.last), spread<Long>(leave[axis], i) - ahead);
+            extent.add(extent_of({at(of_box.x), at(of_box.y), at(of_box.z)}, along[axis], first, last));
+        };
+        add_edges(0), add_edges(1), add_edges(2);
+        auto const store = [i](T* to, Long const& lanes) { std::memcpy(to + 4 * i, &lanes, sizeof lanes); };
+        store(of.lo[0], extent.lo.x), store(of.lo[1], extent.lo.y), store(of.lo[2], extent.lo.z);
+        store(of.hi[0], extent.hi.x), store(of.hi[1], extent.hi.y), store(of.hi[2], extent.hi.z);
+    }
+};
+
 template <class T>
 [[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, T const* plane,
                                                      ExtentsOfSlices<T>& of) noexcept {
-    using Lanes = Lanes<T>;
     using Long = LongLanes<T>;
-    auto const all = [](T value) { return all_four(value); };
-    Vec3<T> const &right = seen.pose.right, &up = seen.pose.up, &ahead = seen.pose.forward;
-    EdgesOfBox<T> edges;
-    cut_box_edges(seen, edges);
-    // NOTE: one by one, as they have mostly just been written.
-    Lanes const n = Lanes::of(plane[0], plane[1], plane[2], plane[3]), f = moved_up(n, plane[4]);
-    Lanes const begins = n - all(seen.slack), ends = f + all(seen.slack);
-    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top).
-    Lanes const x_slope = picked<0, 1, 1, 0>(seen.slope), y_slope = picked<2, 2, 3, 3>(seen.slope);
-    Lanes const x_offset = picked<0, 1, 1, 0>(seen.offset), y_offset = picked<2, 2, 3, 3>(seen.offset);
-    auto const lit = [](Lanes const& v) { return FourVectors<T>{all_of<0>(v), all_of<1>(v), all_of<2>(v)}; };
-    FourVectors<T> const right_lit = lit(seen.lit.right), up_lit = lit(seen.lit.up);
-    FourVectors<T> const from = times(x_offset, right) + times(y_offset, up);
-    FourVectors<T> const ray = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
-    LongVectors<T> const from_lit = repeated<T>(right_lit * x_offset + up_lit * y_offset);
-    LongVectors<T> const ray_lit = repeated<T>(right_lit * x_slope + up_lit * y_slope + lit(seen.lit.forward));
-    Lanes const lo_x = all_of<0>(seen.lo), lo_y = all_of<1>(seen.lo), lo_z = all_of<2>(seen.lo);
-    Lanes const hi_x = all_of<0>(seen.hi), hi_y = all_of<1>(seen.hi), hi_z = all_of<2>(seen.hi);
-    Lanes const one = all(T(1));
-    auto const along_ray_x = passage(lo_x, hi_x, from.x, one / not_zero(ray.x));
-    auto const along_ray_y = passage(lo_y, hi_y, from.y, one / not_zero(ray.y));
-    auto const along_ray_z = passage(lo_z, hi_z, from.z, one / not_zero(ray.z));
-    Lanes const first_of_ray = largest(along_ray_x.enter, largest(along_ray_y.enter, along_ray_z.enter));
-    Lanes const last_of_ray = least(along_ray_x.leave, least(along_ray_y.leave, along_ray_z.leave));
-    // Sides of the split planes, from corner to corner: right, up, left, down. Planes are where they are: the box that
-    // these edges are cut by is larger.
-    Lanes const sideways = Lanes::of(T(1), T(0), T(-1), T(0)), upward = Lanes::of(T(0), T(1), T(0), T(-1));
-    FourVectors<T> const side = times(sideways, right) + times(upward, up);
-    HalfStep<Long> const along_side = half_of(repeated<T>(right_lit * sideways + up_lit * upward));
-    HalfStep<Long> const along_ray = half_of(ray_lit);
-    Lanes const per_x = one / not_zero(side.x), per_y = one / not_zero(side.y), per_z = one / not_zero(side.z);
-    auto const long_passage = [](Passage<Lanes> const& p) {
-        return Passage<Long>{repeated<Long>(p.enter), repeated<Long>(p.leave)};
-    };
-    Passage<Long> const across_x = long_passage(passage(lo_x, hi_x, from.x, per_x));
-    Passage<Long> const across_y = long_passage(passage(lo_y, hi_y, from.y, per_y));
-    Passage<Long> const across_z = long_passage(passage(lo_z, hi_z, from.z, per_z));
-    // How far the origins move along the sides with every metre of depth.
-    LongVectors<T> const shift = repeated<T>(FourVectors<T>{ray.x * per_x, ray.y * per_y, ray.z * per_z});
-    auto const across = [](Lanes const& side) { return picked<1, 3, 1, 3>(side) - picked<0, 2, 0, 2>(side); };
-    Long const growth = repeated<Long>(across(seen.slope)), length = repeated<Long>(across(seen.offset));
-    auto const of_sides = [&](Long const& z) {
-        Long first = Long::all(T(0)), last = growth * z + length;
-        across_x.cut(shift.x * z, first, last);
-        across_y.cut(shift.y * z, first, last);
-        across_z.cut(shift.z * z, first, last);
-        return extent_of(from_lit + ray_lit * z, along_side, first, last);
-    };
-    Long const first_long = repeated<Long>(first_of_ray), last_long = repeated<Long>(last_of_ray);
-    auto const along_axis = [](Lanes const& in_light) {
-        return half_of(LongVectors<T>{long_of<0>(in_light), long_of<1>(in_light), long_of<2>(in_light)});
-    };
-    HalfStep<Long> const along[3] = {along_axis(seen.lit.x), along_axis(seen.lit.y), along_axis(seen.lit.z)};
-    // Where the slices begin and end along the edges of each axis, had these no depth of their own.
-    Lanes enter[3], leave[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        Lanes const per_ahead = all(edges.per_ahead[axis]), a = begins * per_ahead, b = ends * per_ahead;
-        enter[axis] = least(a, b);
-        leave[axis] = largest(a, b);
-    }
-    ExtentInLanes<Long> far_sides;
-    for (int i = 0; i < 4; i += Long::fours) {
-        // The far plane of one slice is the near plane of the next.
-        ExtentInLanes<Long> extent = far_sides;
-        if (i == 0 || Long::fours > 1) extent = of_sides(spread<Long>(n, i));
-        far_sides = of_sides(spread<Long>(f, i));
-        extent.add(far_sides);
-        Long const begin = spread<Long>(begins, i), end = spread<Long>(ends, i);
-        extent.add(extent_of(from_lit, along_ray, largest(first_long, begin), least(last_long, end)));
-        for (int axis = 0; axis < 3; ++axis) {
-            auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
-            Long const ahead = at(edges.ahead);
-            Long const a = largest(at(edges.first), spread<Long>(enter[axis], i) - ahead);
-            Long const b = least(at(edges.last), spread<Long>(leave[axis], i) - ahead);
-            LongVectors<T> const origin = {at(edges.x), at(edges.y), at(edges.z)};
-            extent.add(extent_of(origin, along[axis], a, b));
-        }
-        auto const store = [i](T* to, Long const& lanes) { std::memcpy(to + 4 * i, &lanes, sizeof lanes); };
-        store(of.lo[0], extent.lo.x);
-        store(of.lo[1], extent.lo.y);
-        store(of.lo[2], extent.lo.z);
-        store(of.hi[0], extent.hi.x);
-        store(of.hi[1], extent.hi.y);
-        store(of.hi[2], extent.hi.z);
-    }
+    EdgesInLight<T> const edges(seen, plane);
+    ExtentInLanes<Long> sides = edges.of_sides(Long::all(plane[0]));
+    // NOTE: no loop: compilers would keep what it needs in registers that they have not.
+    edges.bound(0, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(1, sides, of);
+    if constexpr (Long::fours <= 2) edges.bound(2, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(3, sides, of);
 }
 
 // The same, with a slice to a lane: light-space boxes, from the world's origin.
@@ -386,27 +404,27 @@ struct FourSlices {
     FourVectors<T>& lo;
     FourVectors<T>& hi;
 
-    [[gnu::always_inline]] static Lanes<T> least_of(T const (&edges)[16]) noexcept {
-        Lanes<T> rows[4] = {four_at(edges), four_at(edges + 4), four_at(edges + 8), four_at(edges + 12)};
-        transpose(rows);
-        return least(least(rows[0], rows[1]), least(rows[2], rows[3]));
-    }
-    [[gnu::always_inline]] static Lanes<T> largest_of(T const (&edges)[16]) noexcept {
-        Lanes<T> rows[4] = {four_at(edges), four_at(edges + 4), four_at(edges + 8), four_at(edges + 12)};
-        transpose(rows);
-        return largest(largest(rows[0], rows[1]), largest(rows[2], rows[3]));
+    // For each slice, what is left of its four edges.
+    template <class Fold>
+    [[gnu::always_inline]] static Lanes<T> folded(T const (&edges)[16], Fold const& fold) noexcept {
+        Lanes<T> const a = four_at(edges), b = four_at(edges + 4), c = four_at(edges + 8), d = four_at(edges + 12);
+        Lanes<T> const of_ab = fold(picked<0, 4, 1, 5>(a, b), picked<2, 6, 3, 7>(a, b));
+        Lanes<T> const of_cd = fold(picked<0, 4, 1, 5>(c, d), picked<2, 6, 3, 7>(c, d));
+        return fold(picked<0, 1, 4, 5>(of_ab, of_cd), picked<2, 3, 6, 7>(of_ab, of_cd));
     }
     [[gnu::always_inline]] void operator()() const noexcept {
+        auto const smaller = [](Lanes<T> const& a, Lanes<T> const& b) { return least(a, b); };
+        auto const larger = [](Lanes<T> const& a, Lanes<T> const& b) { return largest(a, b); };
         ExtentsOfSlices<T> of;
         bound_four_slices(seen, plane, of);
         // Where there is nothing, these are numbers that no eye and no slack can move.
         Lanes<T> const least_eye = seen.lit.eye - all_four(seen.slack), most_eye = seen.lit.eye + all_four(seen.slack);
-        lo.x = least_of(of.lo[0]) + all_of<0>(least_eye);
-        lo.y = least_of(of.lo[1]) + all_of<1>(least_eye);
-        lo.z = least_of(of.lo[2]) + all_of<2>(least_eye);
-        hi.x = largest_of(of.hi[0]) + all_of<0>(most_eye);
-        hi.y = largest_of(of.hi[1]) + all_of<1>(most_eye);
-        hi.z = largest_of(of.hi[2]) + all_of<2>(most_eye);
+        lo.x = folded(of.lo[0], smaller) + all_of<0>(least_eye);
+        lo.y = folded(of.lo[1], smaller) + all_of<1>(least_eye);
+        lo.z = folded(of.lo[2], smaller) + all_of<2>(least_eye);
+        hi.x = folded(of.hi[0], larger) + all_of<0>(most_eye);
+        hi.y = folded(of.hi[1], larger) + all_of<1>(most_eye);
+        hi.z = folded(of.hi[2], larger) + all_of<2>(most_eye);
     }
 };
 
@@ -415,7 +433,8 @@ template <class T, class Visit>
 [[gnu::always_inline]] inline bool visit_slices_in_scene(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                                          Splits<T> const& splits, Aabb<T> const& scene,
                                                          Visit const& visit) noexcept {
-    ViewOfBox<T> seen{view.pose, {}, {}, {}, {}, {}, T(0)};
+    ViewOfBox<T> seen;
+    seen.pose = &view.pose;
     if (!look(basis, view, seen.lit) || !in_range(splits) ||
         !look_at_box(view, splits.plane[splits.count], scene, seen))
         return false;
