@@ -18,6 +18,7 @@
 #include <shadowmath/config.hpp>
 #include <shadowmath/lanes.hpp>
 #include <shadowmath/light.hpp>
+#include <shadowmath/long_lanes.hpp>
 #include <shadowmath/polytope.hpp>
 #include <shadowmath/reach.hpp>
 #include <shadowmath/slices.hpp>
@@ -33,36 +34,47 @@ namespace shadowmath {
 inline namespace v0 {
 namespace detail {
 
-// Four vectors at a time.
-template <class T>
-struct FourVectors {
-    Lanes<T> x, y, z;
+// Several vectors at a time.
+template <class L>
+struct Vectors {
+    L x, y, z;
 
-    [[gnu::always_inline]] friend FourVectors operator+(FourVectors const& a, FourVectors const& b) noexcept {
+    [[gnu::always_inline]] friend Vectors operator+(Vectors const& a, Vectors const& b) noexcept {
         return {a.x + b.x, a.y + b.y, a.z + b.z};
     }
-    [[gnu::always_inline]] friend FourVectors operator*(FourVectors const& a, Lanes<T> const& s) noexcept {
+    [[gnu::always_inline]] friend Vectors operator*(Vectors const& a, L const& s) noexcept {
         return {a.x * s, a.y * s, a.z * s};
     }
-    [[gnu::always_inline]] friend FourVectors least(FourVectors const& a, FourVectors const& b) noexcept {
+    [[gnu::always_inline]] friend Vectors least(Vectors const& a, Vectors const& b) noexcept {
         return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
     }
-    [[gnu::always_inline]] friend FourVectors largest(FourVectors const& a, FourVectors const& b) noexcept {
+    [[gnu::always_inline]] friend Vectors largest(Vectors const& a, Vectors const& b) noexcept {
         return {largest(a.x, b.x), largest(a.y, b.y), largest(a.z, b.z)};
     }
 };
 
-// Multiples of one vector.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline FourVectors<T> times(Lanes<T> const& s, Vec3<T> const& v) noexcept {
-    return {s * all_four(v.x), s * all_four(v.y), s * all_four(v.z)};
+using FourVectors = Vectors<Lanes<T>>;
+template <class T>
+using LongVectors = Vectors<LongLanes<T>>;
+
+// Multiples of one vector.
+template <class L, class T>
+[[nodiscard, gnu::always_inline]] inline Vectors<L> times(L const& s, Vec3<T> const& v) noexcept {
+    return {s * L::all(v.x), s * L::all(v.y), s * L::all(v.z)};
 }
 
-// Least and largest light-space coordinates of four edges at a time.
 template <class T>
+[[nodiscard, gnu::always_inline]] inline LongVectors<T> repeated(FourVectors<T> const& v) noexcept {
+    using Long = LongLanes<T>;
+    return {repeated<Long>(v.x), repeated<Long>(v.y), repeated<Long>(v.z)};
+}
+
+// Least and largest light-space coordinates of edges.
+template <class L>
 struct ExtentInLanes {
-    FourVectors<T> lo;
-    FourVectors<T> hi;
+    Vectors<L> lo;
+    Vectors<L> hi;
 
     [[gnu::always_inline]] void add(ExtentInLanes const& other) noexcept {
         lo = least(lo, other.lo);
@@ -70,225 +82,349 @@ struct ExtentInLanes {
     }
 };
 
-// What four edges, from `origin` on along `step`, reach between a and b. Where a > b an edge is none, and its extent is
-// inside out by more than anything can be long.
+// Half a step along edges, and how long that is along each axis.
+template <class L>
+struct HalfStep {
+    Vectors<L> step;
+    Vectors<L> size;
+};
+
+// NOTE: no size is zero: an edge that is none must be seen on every axis.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline ExtentInLanes<T> extent_of(FourVectors<T> const& origin,
-                                                                    FourVectors<T> const& step, Lanes<T> const& a,
-                                                                    Lanes<T> const& b) noexcept {
-    FourVectors<T> const p = origin + step * a, q = origin + step * b;
-    Lanes<T> const none = where_at_most(a, b, all_four(T(0)), all_four(T(1e30)));
-    FourVectors<T> const lo = least(p, q), hi = largest(p, q);
-    return {{lo.x + none, lo.y + none, lo.z + none}, {hi.x - none, hi.y - none, hi.z - none}};
+[[nodiscard, gnu::always_inline]] inline HalfStep<LongLanes<T>> half_of(FourVectors<T> const& step) noexcept {
+    Lanes<T> const half = all_four(T(0.5)), tiny = all_four(T(1e-18));
+    FourVectors<T> const halved = step * half;
+    auto const size = [&tiny](Lanes<T> const& a) { return absolute(a) + tiny; };
+    return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
 }
 
-// The part of [first, last] for which from + that / inverse lies in [lo, hi].
-template <class T>
-[[gnu::always_inline]] inline void keep_between(T lo, T hi, Lanes<T> const& from, Lanes<T> const& inverse,
-                                                Lanes<T>& first, Lanes<T>& last) noexcept {
-    Lanes<T> const a = (all_four(lo) - from) * inverse, b = (all_four(hi) - from) * inverse;
-    first = largest(first, least(a, b));
-    last = least(last, largest(a, b));
+// What edges, from `origin` on, reach between a and b: around their middle, by half their length. Where a > b an edge
+// is none, and its extent is inside out by more than anything can be long.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
+                                                                    L const& a, L const& b) noexcept {
+    Vectors<L> const middle = origin + half.step * (a + b);
+    L const length = where_at_most(a, b, b - a, L::all(-3e38f));
+    Vectors<L> const reach = half.size * length;
+    return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
 }
 
-// Nothing is divided by less than this; what it stands for is the same to far less than a rounding.
+// Metres along edges at which they enter and leave the box between two of its faces, for edges whose origin lies
+// `shift` farther along.
+template <class L>
+struct Passage {
+    L enter, leave;
+
+    [[gnu::always_inline]] void cut(L const& shift, L& first, L& last) const noexcept {
+        first = largest(first, enter - shift);
+        last = least(last, leave - shift);
+    }
+};
+
+// Edges from `from` on; `inverse`: metres along them for one across.
+// NOTE: products before differences: one difference serves all that are parallel, and is as near as that of rounded
+// places can be.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline Passage<L> passage(L const& lo, L const& hi, L const& from,
+                                                           L const& inverse) noexcept {
+    L const a = lo * inverse, b = hi * inverse, shift = from * inverse;
+    return {least(a, b) - shift, largest(a, b) - shift};
+}
+
+// Nothing is divided by less than this. Planes are some epsilon of the view's reach farther out than they are: along
+// what leans less, none of them is met within a million times the length of an edge.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
-    Lanes<T> const tiny = all_four(T(1e-20));
-    return where_at_most(tiny, largest(value, all_four(T(0)) - value), value, tiny);
-}
-template <class T>
-[[nodiscard, gnu::always_inline]] inline T not_zero(T value) noexcept {
-    return value > T(1e-20) || value < T(-1e-20) ? value : T(1e-20);
+    Lanes<T> const tiny = all_four(T(1e-6) * std::numeric_limits<T>::epsilon());
+    return where_at_most(tiny, absolute(value), value, tiny);
 }
 
 // A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
 // at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
 template <class T>
 struct ViewOfBox {
-    Pose<T> pose;
-    T slope[4];
-    T offset[4];
-    Vec3<T> lo;
-    Vec3<T> hi;
+    Pose<T> const* pose;
+    ViewInLight<T> lit;
+    Lanes<T> slope;
+    Lanes<T> offset;
+    Lanes<T> lo;  // x, y, z
+    Lanes<T> hi;
     T slack;
 };
 
-// False where the numbers are none that products of three can be made of, or nothing is there.
+// False where the numbers are none that products of three can be made of, or nothing is there. After look(), which has
+// seen that the view is finite and filled in `lit`.
 template <class T>
-[[nodiscard]] inline bool look_at_box(ViewVolume<T> const& view, LightBasis<T> const& basis, T farthest,
-                                      Aabb<T> const& scene, ViewOfBox<T>& seen) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool look_at_box(ViewVolume<T> const& view, T farthest, Aabb<T> const& scene,
+                                                          ViewOfBox<T>& seen) noexcept {
+    using Lanes = Lanes<T>;
     constexpr T most = T(1e12);
-    auto const bound = order_of(most);
-    auto const size = [](T value) { return order_of(std::abs(value)); };
-    T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
     Vec3<T> const& eye = view.pose.position;
-    auto const far_end = order_of(farthest), widest = size(sides), x = size(eye.x), y = size(eye.y), z = size(eye.z);
-    bool const good = (far_end <= bound) & (widest <= bound) & (x <= bound) & (y <= bound) & (z <= bound);
-    if (!good || !all_finite(scene) || is_empty(scene)) return false;
-    T const axes = absolute_sum(view.pose.right) + absolute_sum(view.pose.up) + absolute_sum(view.pose.forward) +
-                   absolute_sum(basis.x) + absolute_sum(basis.y) + absolute_sum(basis.depth);
-    if (!(axes <= T(12))) return false;  // six unit vectors sum up to less
+    T const x = std::abs(eye.x), y = std::abs(eye.y), z = std::abs(eye.z), sides = seen.lit.sides;
     bool const flat = view.kind == ViewKind::orthographic;
     T const reach = flat ? farthest + sides : farthest * (T(1) + sides);
-    if (!(reach <= most)) return false;
-    seen.pose = view.pose;
-    seen.slack = T(16) * std::numeric_limits<T>::epsilon() * (reach + absolute_sum(eye));
-    T const of_side[4] = {view.left, view.right, view.bottom, view.top};
-    for (int i = 0; i < 4; ++i) {
-        T const outward = (i & 1) != 0 ? seen.slack : -seen.slack;
-        seen.slope[i] = flat ? T(0) : of_side[i];
+    if (!((x <= most) & (y <= most) & (z <= most) & (sides <= most) & (reach <= most))) return false;
+    BeyondReach<T> infinite;
+    Lanes lo, hi;
+    if constexpr (sizeof scene == 6 * sizeof(T)) {
+        lo = four_at(&scene.lo.x);
+        hi = moved_up(four_at(&scene.lo.z), T(0));
+    } else {
+        lo = Lanes::of(scene.lo.x, scene.lo.y, scene.lo.z, T(0));
+        hi = Lanes::of(scene.hi.x, scene.hi.y, scene.hi.z, T(0));
+    }
+    infinite.look_for_finite(lo);
+    infinite.look_for_finite(hi);
+    if (infinite.any() || is_empty(scene)) return false;
+    auto const size_of = [](Vec3<T> const& v) { return absolute(Lanes::of(v.x, v.y, v.z, T(0))); };
+    Lanes const axes = size_of(view.pose.right) + size_of(view.pose.up) + size_of(view.pose.forward) +
+                       (absolute(seen.lit.x) + absolute(seen.lit.y) + absolute(seen.lit.z));
+    if (!(axes[0] + axes[1] + axes[2] <= T(12))) return false;  // six unit vectors sum up to less
+    seen.slack = T(16) * std::numeric_limits<T>::epsilon() * (reach + (x + y + z));
+    Lanes const of_side = four_at(&view.left), slack = all_four(seen.slack);
+    Lanes const outward = Lanes::of(-seen.slack, seen.slack, -seen.slack, seen.slack);
+    if (flat) {
+        seen.slope = all_four(T(0));
+        seen.offset = of_side + outward;
+    } else {
+        seen.slope = of_side;
         // A plane that leans is moved farther along its side than outward.
-        seen.offset[i] = flat ? of_side[i] + outward : outward * (T(1) + std::abs(of_side[i]));
+        seen.offset = outward * (all_four(T(1)) + absolute(of_side));
     }
     // Nothing of the view is farther from the eye along any axis than twice its reach.
     T const limit = T(2) * reach;
-    auto const limited = [limit](T value) { return value < -limit ? -limit : (value > limit ? limit : value); };
-    Vec3<T> const lo = scene.lo - eye, hi = scene.hi - eye;
-    seen.lo = Vec3<T>(limited(lo.x - seen.slack), limited(lo.y - seen.slack), limited(lo.z - seen.slack));
-    seen.hi = Vec3<T>(limited(hi.x + seen.slack), limited(hi.y + seen.slack), limited(hi.z + seen.slack));
+    auto const limited = [limit](Lanes const& at) { return largest(least(at, all_four(limit)), all_four(-limit)); };
+    Lanes const at_eye = Lanes::of(eye.x, eye.y, eye.z, T(0));
+    seen.lo = limited(lo - at_eye - slack);
+    seen.hi = limited(hi - at_eye + slack);
     return true;
 }
 
+// The twelve edges of the box, four to an axis, from its lower face on; and four more that mean nothing. An edge is
+// inside the sides of the view from `first` to `last` metres behind its origin. (x, y, z): origin in light space;
+// ahead: metres along the edge that its depth in the view amounts to.
 template <class T>
-using FourExtents = ExtentInLanes<T>[4];
+struct EdgesOfBox {
+    T first[16], last[16], ahead[16], x[16], y[16], z[16];
+    Lanes<T> per_ahead;  // of each axis: metres along it for one of depth
+};
 
-// A vector along the axes of the light.
+// Where an axis has its four edges: at the lower (0) or the upper (1) end of the others.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline Vec3<T> turned(LightBasis<T> const& basis, Vec3<T> const& v) noexcept {
-    return Vec3<T>(basis.x.x * v.x + basis.x.y * v.y + basis.x.z * v.z,
-                   basis.y.x * v.x + basis.y.y * v.y + basis.y.z * v.z,
-                   basis.depth.x * v.x + basis.depth.y * v.y + basis.depth.z * v.z);
+inline constexpr T edge_at[3][16] = {{0, 0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0},
+                                     {0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0},
+                                     {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0}};
+
+template <int i>
+struct Place {
+    static constexpr int value = i;
+};
+
+// Lane i everywhere.
+template <int i, class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> all_of(Lanes<T> const& four) noexcept {
+    return picked<i, i, i, i>(four);
+}
+template <int i, class T>
+[[nodiscard, gnu::always_inline]] inline LongLanes<T> long_of(Lanes<T> const& four) noexcept {
+    return repeated<LongLanes<T>>(all_of<i>(four));
 }
 
-// Edges of the box along one axis, from the four corners of its lower face. `of_u`, `of_v` and `of_axis` are what a
-// metre along the other two axes and this one is along the view's (right, up, forward) and along the light's.
 template <class T>
-[[gnu::always_inline]] inline void bound_box_edges(ViewOfBox<T> const& seen, Lanes<T> const (&begin)[4],
-                                                   Lanes<T> const (&end)[4], Vec3<T> const (&in_view)[3],
-                                                   Vec3<T> const (&in_light)[3], T low, T high, Lanes<T> const& at_u,
-                                                   Lanes<T> const& at_v, FourExtents<T>& extent) noexcept {
-    auto const all = [](T value) { return all_four(value); };
-    FourVectors<T> const corner = times(at_u, in_view[1]) + times(at_v, in_view[2]) + times(all(low), in_view[0]);
-    Vec3<T> const& grow = in_view[0];
-    Lanes<T> first = all(T(0)), last = all(high - low);
-    auto const keep = [&first, &last](Lanes<T> const& inside, T growth) {
-        T const slope = not_zero(growth);
-        Lanes<T> const root = inside * all_four(T(-1) / slope);
-        if (slope > T(0))
-            first = largest(first, root);
-        else
-            last = least(last, root);
-    };
-    keep(corner.x - corner.z * all(seen.slope[0]) - all(seen.offset[0]), grow.x - grow.z * seen.slope[0]);
-    keep(corner.z * all(seen.slope[1]) + all(seen.offset[1]) - corner.x, grow.z * seen.slope[1] - grow.x);
-    keep(corner.y - corner.z * all(seen.slope[2]) - all(seen.offset[2]), grow.y - grow.z * seen.slope[2]);
-    keep(corner.z * all(seen.slope[3]) + all(seen.offset[3]) - corner.y, grow.z * seen.slope[3] - grow.y);
-    FourVectors<T> const origin = times(at_u, in_light[1]) + times(at_v, in_light[2]) + times(all(low), in_light[0]);
-    FourVectors<T> const step = {all(in_light[0].x), all(in_light[0].y), all(in_light[0].z)};
-    Lanes<T> const per_depth = all(T(1) / not_zero(grow.z));
-    for (int slice = 0; slice < 4; ++slice) {
-        Lanes<T> const a = (begin[slice] - corner.z) * per_depth, b = (end[slice] - corner.z) * per_depth;
-        extent[slice].add(extent_of(origin, step, largest(first, least(a, b)), least(last, largest(a, b))));
-    }
-}
-
-// Four slices, from plane[0] to plane[4].
-template <class T>
-[[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, LightBasis<T> const& basis,
-                                                     T const* plane, FourExtents<T>& extent) noexcept {
+[[gnu::always_inline]] inline void cut_box_edges(ViewOfBox<T> const& seen, EdgesOfBox<T>& edges) noexcept {
+    using Long = LongLanes<T>;
     using Lanes = Lanes<T>;
-    using Vectors = FourVectors<T>;
-    auto const all = [](T value) { return all_four(value); };
-    Vec3<T> const &right = seen.pose.right, &up = seen.pose.up, &ahead = seen.pose.forward, &lo = seen.lo,
-                  &hi = seen.hi;
-    Lanes const slack = all(seen.slack);
-    Lanes const planes[5] = {all(plane[0]), all(plane[1]), all(plane[2]), all(plane[3]), all(plane[4])};
-    Lanes const begin[4] = {planes[0] - slack, planes[1] - slack, planes[2] - slack, planes[3] - slack};
-    Lanes const end[4] = {planes[1] + slack, planes[2] + slack, planes[3] + slack, planes[4] + slack};
-    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top).
-    Lanes const x_slope = Lanes::of(seen.slope[0], seen.slope[1], seen.slope[1], seen.slope[0]);
-    Lanes const y_slope = Lanes::of(seen.slope[2], seen.slope[2], seen.slope[3], seen.slope[3]);
-    Lanes const x_offset = Lanes::of(seen.offset[0], seen.offset[1], seen.offset[1], seen.offset[0]);
-    Lanes const y_offset = Lanes::of(seen.offset[2], seen.offset[2], seen.offset[3], seen.offset[3]);
-    Vec3<T> const right_lit = turned(basis, right), up_lit = turned(basis, up), ahead_lit = turned(basis, ahead);
-    Vectors const from = times(x_offset, right) + times(y_offset, up);
-    Vectors const ray = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
-    Vectors const from_lit = times(x_offset, right_lit) + times(y_offset, up_lit);
-    Vectors const ray_lit = times(x_slope, right_lit) + times(y_slope, up_lit) + times(all(T(1)), ahead_lit);
-    {
-        Lanes first = begin[0], last = end[3];
-        keep_between(lo.x, hi.x, from.x, all(T(1)) / not_zero(ray.x), first, last);
-        keep_between(lo.y, hi.y, from.y, all(T(1)) / not_zero(ray.y), first, last);
-        keep_between(lo.z, hi.z, from.z, all(T(1)) / not_zero(ray.z), first, last);
-        for (int slice = 0; slice < 4; ++slice)
-            extent[slice] = extent_of(from_lit, ray_lit, largest(first, begin[slice]), least(last, end[slice]));
+    auto const four = [](Vec3<T> const& v) { return Lanes::of(v.x, v.y, v.z, T(0)); };
+    // By how much each axis goes inward through each side, metres a metre.
+    Lanes const right = four(seen.pose->right), up = four(seen.pose->up), ahead = four(seen.pose->forward);
+    Lanes const inward[4] = {right - ahead * all_of<0>(seen.slope), ahead * all_of<1>(seen.slope) - right,
+                             up - ahead * all_of<2>(seen.slope), ahead * all_of<3>(seen.slope) - up};
+    // An edge enters where it goes inward, and leaves where not: what it does not do is moved out of the way.
+    constexpr T away = T(1e38);
+    Lanes inverse[4], not_entered[4], not_left[4];
+    for (int i = 0; i < 4; ++i) {
+        Lanes const in = not_zero(inward[i]);
+        inverse[i] = all_four(T(-1)) / in;
+        not_entered[i] = where_at_most(in, all_four(T(0)), all_four(-away), all_four(T(0)));
+        not_left[i] = not_entered[i] + all_four(away);
     }
-    // Sides of the split planes, from corner to corner: right, up, left, down. Planes are where they are: the box that
-    // these edges are cut by is larger.
-    Lanes const sideways = Lanes::of(T(1), T(0), T(-1), T(0)), upward = Lanes::of(T(0), T(1), T(0), T(-1));
-    Vectors const side = times(sideways, right) + times(upward, up),
-                  side_lit = times(sideways, right_lit) + times(upward, up_lit);
-    Lanes const one = all(T(1));
-    Vectors const per_side = {one / not_zero(side.x), one / not_zero(side.y), one / not_zero(side.z)};
-    T const wider = seen.slope[1] - seen.slope[0], taller = seen.slope[3] - seen.slope[2];
-    T const width = seen.offset[1] - seen.offset[0], height = seen.offset[3] - seen.offset[2];
-    Lanes const growth = Lanes::of(wider, taller, wider, taller), length = Lanes::of(width, height, width, height);
-    for (int i = 0; i < 5; ++i) {
-        Lanes const z = planes[i];
-        Lanes first = all(T(0)), last = growth * z + length;
-        Vectors const corner = from + ray * z;
-        keep_between(lo.x, hi.x, corner.x, per_side.x, first, last);
-        keep_between(lo.y, hi.y, corner.y, per_side.y, first, last);
-        keep_between(lo.z, hi.z, corner.z, per_side.z, first, last);
-        ExtentInLanes<T> const of_plane = extent_of(from_lit + ray_lit * z, side_lit, first, last);
-        if (i > 0) extent[i - 1].add(of_plane);
-        if (i < 4) extent[i].add(of_plane);
+    Lanes const length = seen.hi - seen.lo;
+    Long const lo_x = long_of<0>(seen.lo), lo_y = long_of<1>(seen.lo), lo_z = long_of<2>(seen.lo);
+    Long const hi_x = long_of<0>(seen.hi), hi_y = long_of<1>(seen.hi), hi_z = long_of<2>(seen.hi);
+    edges.per_ahead = all_four(T(1)) / not_zero(ahead);
+    for (int axis = 0; axis < 3; axis += Long::fours) {
+        auto const end = [&](int i, Long const& lo, Long const& hi) {
+            return where_at_most(long_at<Long>(edge_at<T>[i] + 4 * axis), Long::all(T(0)), lo, hi);
+        };
+        Long const x = end(0, lo_x, hi_x), y = end(1, lo_y, hi_y), z = end(2, lo_z, hi_z);
+        auto const along = [&](Lanes const& v) { return x * long_of<0>(v) + y * long_of<1>(v) + z * long_of<2>(v); };
+        Long const inside[4] = {along(inward[0]) - long_of<0>(seen.offset), along(inward[1]) + long_of<1>(seen.offset),
+                                along(inward[2]) - long_of<2>(seen.offset), along(inward[3]) + long_of<3>(seen.offset)};
+        Long first = Long::all(T(0)), last = spread<Long>(length, axis);
+        auto const cut = [&](int i) {
+            Long const root = inside[i] * spread<Long>(inverse[i], axis);
+            first = largest(first, root + spread<Long>(not_entered[i], axis));
+            last = least(last, root + spread<Long>(not_left[i], axis));
+        };
+        cut(0), cut(1), cut(2), cut(3);
+        auto const store = [axis](T* to, Long const& lanes) { std::memcpy(to + 4 * axis, &lanes, sizeof lanes); };
+        auto const lit = [&](auto place) {
+            constexpr int i = decltype(place)::value;
+            return x * long_of<i>(seen.lit.x) + y * long_of<i>(seen.lit.y) + z * long_of<i>(seen.lit.z);
+        };
+        store(edges.first, first);
+        store(edges.last, last);
+        store(edges.ahead, along(ahead) * spread<Long>(edges.per_ahead, axis));
+        store(edges.x, lit(Place<0>()));
+        store(edges.y, lit(Place<1>()));
+        store(edges.z, lit(Place<2>()));
     }
-    Vec3<T> const view_x(right.x, up.x, ahead.x), view_y(right.y, up.y, ahead.y), view_z(right.z, up.z, ahead.z);
-    Vec3<T> const lit_x(basis.x.x, basis.y.x, basis.depth.x), lit_y(basis.x.y, basis.y.y, basis.depth.y);
-    Vec3<T> const lit_z(basis.x.z, basis.y.z, basis.depth.z);
-    Lanes const x_as_u = Lanes::of(lo.x, hi.x, lo.x, hi.x), y_as_u = Lanes::of(lo.y, hi.y, lo.y, hi.y);
-    Lanes const y_as_v = Lanes::of(lo.y, lo.y, hi.y, hi.y), z_as_v = Lanes::of(lo.z, lo.z, hi.z, hi.z);
-    bound_box_edges(seen, begin, end, {view_x, view_y, view_z}, {lit_x, lit_y, lit_z}, lo.x, hi.x, y_as_u, z_as_v,
-                    extent);
-    bound_box_edges(seen, begin, end, {view_y, view_x, view_z}, {lit_y, lit_x, lit_z}, lo.y, hi.y, x_as_u, z_as_v,
-                    extent);
-    bound_box_edges(seen, begin, end, {view_z, view_x, view_y}, {lit_z, lit_x, lit_y}, lo.z, hi.z, x_as_u, y_as_v,
-                    extent);
+}
+
+// Least and largest coordinates of four edges in each of four slices.
+template <class T>
+struct ExtentsOfSlices {
+    T lo[3][16], hi[3][16];
+};
+
+// All edges of four slices and the box, from plane[0] to plane[4].
+template <class T>
+struct EdgesInLight {
+    using Four = Lanes<T>;
+    using Long = LongLanes<T>;
+
+    Four nearest, farthest;  // planes of each slice
+    Four begins, ends;       // and a little farther apart
+    EdgesOfBox<T> of_box;
+    HalfStep<Long> along[3];  // its axes
+    Four enter[3], leave[3];  // where the slices begin and end along them, had their edges no depth of their own
+    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top). Rays through them from depth 0.
+    LongVectors<T> from, ray;
+    HalfStep<Long> along_ray;
+    Long first_of_ray, last_of_ray;
+    // Sides of a split plane, from corner to corner: right, up, left, down; `length` metres at depth 0, `growth` more
+    // for every metre of depth, and their origins `shift` farther along them.
+    HalfStep<Long> along_side;
+    Passage<Long> side_in_x, side_in_y, side_in_z;
+    LongVectors<T> shift;
+    Long growth, length;
+
+    [[gnu::always_inline]] EdgesInLight(ViewOfBox<T> const& seen, T const* plane) noexcept {
+        auto const all = [](T value) { return all_four(value); };
+        auto const lit = [](Four const& v) { return FourVectors<T>{all_of<0>(v), all_of<1>(v), all_of<2>(v)}; };
+        Vec3<T> const &right = seen.pose->right, &up = seen.pose->up, &ahead = seen.pose->forward;
+        // NOTE: one by one, as they have mostly just been written.
+        nearest = Four::of(plane[0], plane[1], plane[2], plane[3]), farthest = moved_up(nearest, plane[4]);
+        begins = nearest - all(seen.slack), ends = farthest + all(seen.slack);
+        cut_box_edges(seen, of_box);
+        along[0] = half_of<T>(lit(seen.lit.x)), along[1] = half_of<T>(lit(seen.lit.y));
+        along[2] = half_of<T>(lit(seen.lit.z));
+        for (int axis = 0; axis < 3; ++axis) {
+            Four const per_ahead = all(of_box.per_ahead[axis]), a = begins * per_ahead, b = ends * per_ahead;
+            enter[axis] = least(a, b), leave[axis] = largest(a, b);
+        }
+        Four const x_slope = picked<0, 1, 1, 0>(seen.slope), y_slope = picked<2, 2, 3, 3>(seen.slope);
+        Four const x_offset = picked<0, 1, 1, 0>(seen.offset), y_offset = picked<2, 2, 3, 3>(seen.offset);
+        FourVectors<T> const right_lit = lit(seen.lit.right), up_lit = lit(seen.lit.up);
+        FourVectors<T> const corner = times(x_offset, right) + times(y_offset, up);
+        FourVectors<T> const outward = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
+        FourVectors<T> const outward_lit = right_lit * x_slope + up_lit * y_slope + lit(seen.lit.forward);
+        from = repeated<T>(right_lit * x_offset + up_lit * y_offset), ray = repeated<T>(outward_lit);
+        along_ray = half_of<T>(outward_lit);
+        FourVectors<T> const lo = lit(seen.lo), hi = lit(seen.hi);
+        Four const one = all(T(1));
+        Passage<Four> const x = passage(lo.x, hi.x, corner.x, one / not_zero(outward.x));
+        Passage<Four> const y = passage(lo.y, hi.y, corner.y, one / not_zero(outward.y));
+        Passage<Four> const z = passage(lo.z, hi.z, corner.z, one / not_zero(outward.z));
+        first_of_ray = repeated<Long>(largest(x.enter, largest(y.enter, z.enter)));
+        last_of_ray = repeated<Long>(least(x.leave, least(y.leave, z.leave)));
+        Four const sideways = Four::of(T(1), T(0), T(-1), T(0)), upward = Four::of(T(0), T(1), T(0), T(-1));
+        FourVectors<T> const side = times(sideways, right) + times(upward, up);
+        along_side = half_of<T>(right_lit * sideways + up_lit * upward);
+        Four const per_x = one / not_zero(side.x), per_y = one / not_zero(side.y), per_z = one / not_zero(side.z);
+        auto const sides = [](Passage<Four> const& p) {
+            return Passage<Long>{repeated<Long>(p.enter), repeated<Long>(p.leave)};
+        };
+        side_in_x = sides(passage(lo.x, hi.x, corner.x, per_x)), side_in_y = sides(passage(lo.y, hi.y, corner.y, per_y));
+        side_in_z = sides(passage(lo.z, hi.z, corner.z, per_z));
+        shift = repeated<T>(FourVectors<T>{outward.x * per_x, outward.y * per_y, outward.z * per_z});
+        auto const apart = [](Four const& of) { return picked<1, 3, 1, 3>(of) - picked<0, 2, 0, 2>(of); };
+        growth = repeated<Long>(apart(seen.slope)), length = repeated<Long>(apart(seen.offset));
+    }
+
+    // Planes are where they are: the box that their sides are cut by is larger.
+    [[nodiscard, gnu::always_inline]] ExtentInLanes<Long> of_sides(Long const& depth) const noexcept {
+        Long first = Long::all(T(0)), last = growth * depth + length;
+        side_in_x.cut(shift.x * depth, first, last);
+        side_in_y.cut(shift.y * depth, first, last);
+        side_in_z.cut(shift.z * depth, first, last);
+        return extent_of(from + ray * depth, along_side, first, last);
+    }
+
+    // For slices from i on; the far plane of one is the near plane of the next.
+    [[gnu::always_inline]] void bound(int i, ExtentInLanes<Long>& sides, ExtentsOfSlices<T>& of) const noexcept {
+        ExtentInLanes<Long> extent = sides;
+        if (Long::fours > 1) extent = of_sides(spread<Long>(nearest, i));
+        sides = of_sides(spread<Long>(farthest, i));
+        extent.add(sides);
+        extent.add(extent_of(from, along_ray, largest(first_of_ray, spread<Long>(begins, i)),
+                             least(last_of_ray, spread<Long>(ends, i))));
+        auto const add_edges = [&](int axis) {
+            auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
+            Long const ahead = at(of_box.ahead);
+            Long const first = largest(at(of_box.first), spread<Long>(enter[axis], i) - ahead);
+            Long const last = least(at(of_box.last), spread<Long>(leave[axis], i) - ahead);
+            extent.add(extent_of({at(of_box.x), at(of_box.y), at(of_box.z)}, along[axis], first, last));
+        };
+        add_edges(0), add_edges(1), add_edges(2);
+        auto const store = [i](T* to, Long const& lanes) { std::memcpy(to + 4 * i, &lanes, sizeof lanes); };
+        store(of.lo[0], extent.lo.x), store(of.lo[1], extent.lo.y), store(of.lo[2], extent.lo.z);
+        store(of.hi[0], extent.hi.x), store(of.hi[1], extent.hi.y), store(of.hi[2], extent.hi.z);
+    }
+};
+
+template <class T>
+[[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, T const* plane,
+                                                     ExtentsOfSlices<T>& of) noexcept {
+    using Long = LongLanes<T>;
+    EdgesInLight<T> const edges(seen, plane);
+    ExtentInLanes<Long> sides = edges.of_sides(Long::all(plane[0]));
+    // NOTE: no loop: compilers would keep what it needs in registers that they have not.
+    edges.bound(0, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(1, sides, of);
+    if constexpr (Long::fours <= 2) edges.bound(2, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(3, sides, of);
 }
 
 // The same, with a slice to a lane: light-space boxes, from the world's origin.
 template <class T>
 struct FourSlices {
     ViewOfBox<T> const& seen;
-    LightBasis<T> const& basis;
     T const* plane;
     FourVectors<T>& lo;
     FourVectors<T>& hi;
 
-    [[gnu::always_inline]] static Lanes<T> least_of(Lanes<T> a, Lanes<T> b, Lanes<T> c, Lanes<T> d) noexcept {
-        Lanes<T> rows[4] = {a, b, c, d};
-        transpose(rows);
-        return least(least(rows[0], rows[1]), least(rows[2], rows[3]));
-    }
-    [[gnu::always_inline]] static Lanes<T> largest_of(Lanes<T> a, Lanes<T> b, Lanes<T> c, Lanes<T> d) noexcept {
-        Lanes<T> rows[4] = {a, b, c, d};
-        transpose(rows);
-        return largest(largest(rows[0], rows[1]), largest(rows[2], rows[3]));
+    // For each slice, what is left of its four edges.
+    template <class Fold>
+    [[gnu::always_inline]] static Lanes<T> folded(T const (&edges)[16], Fold const& fold) noexcept {
+        Lanes<T> const a = four_at(edges), b = four_at(edges + 4), c = four_at(edges + 8), d = four_at(edges + 12);
+        Lanes<T> const of_ab = fold(picked<0, 4, 1, 5>(a, b), picked<2, 6, 3, 7>(a, b));
+        Lanes<T> const of_cd = fold(picked<0, 4, 1, 5>(c, d), picked<2, 6, 3, 7>(c, d));
+        return fold(picked<0, 1, 4, 5>(of_ab, of_cd), picked<2, 3, 6, 7>(of_ab, of_cd));
     }
     [[gnu::always_inline]] void operator()() const noexcept {
-        FourExtents<T> of;
-        bound_four_slices(seen, basis, plane, of);
-        Vec3<T> const eye = turned(basis, seen.pose.position);
-        T const slack = seen.slack;
+        auto const smaller = [](Lanes<T> const& a, Lanes<T> const& b) { return least(a, b); };
+        auto const larger = [](Lanes<T> const& a, Lanes<T> const& b) { return largest(a, b); };
+        ExtentsOfSlices<T> of;
+        bound_four_slices(seen, plane, of);
         // Where there is nothing, these are numbers that no eye and no slack can move.
-        lo.x = least_of(of[0].lo.x, of[1].lo.x, of[2].lo.x, of[3].lo.x) + all_four(eye.x - slack);
-        lo.y = least_of(of[0].lo.y, of[1].lo.y, of[2].lo.y, of[3].lo.y) + all_four(eye.y - slack);
-        lo.z = least_of(of[0].lo.z, of[1].lo.z, of[2].lo.z, of[3].lo.z) + all_four(eye.z - slack);
-        hi.x = largest_of(of[0].hi.x, of[1].hi.x, of[2].hi.x, of[3].hi.x) + all_four(eye.x + slack);
-        hi.y = largest_of(of[0].hi.y, of[1].hi.y, of[2].hi.y, of[3].hi.y) + all_four(eye.y + slack);
-        hi.z = largest_of(of[0].hi.z, of[1].hi.z, of[2].hi.z, of[3].hi.z) + all_four(eye.z + slack);
+        Lanes<T> const least_eye = seen.lit.eye - all_four(seen.slack), most_eye = seen.lit.eye + all_four(seen.slack);
+        lo.x = folded(of.lo[0], smaller) + all_of<0>(least_eye);
+        lo.y = folded(of.lo[1], smaller) + all_of<1>(least_eye);
+        lo.z = folded(of.lo[2], smaller) + all_of<2>(least_eye);
+        hi.x = folded(of.hi[0], larger) + all_of<0>(most_eye);
+        hi.y = folded(of.hi[1], larger) + all_of<1>(most_eye);
+        hi.z = folded(of.hi[2], larger) + all_of<2>(most_eye);
     }
 };
 
@@ -297,10 +433,10 @@ template <class T, class Visit>
 [[gnu::always_inline]] inline bool visit_slices_in_scene(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                                          Splits<T> const& splits, Aabb<T> const& scene,
                                                          Visit const& visit) noexcept {
-    ViewInLight<T> checked;
     ViewOfBox<T> seen;
-    if (!look(basis, view, checked) || !in_range(splits) ||
-        !look_at_box(view, basis, splits.plane[splits.count], scene, seen))
+    seen.pose = &view.pose;
+    if (!look(basis, view, seen.lit) || !in_range(splits) ||
+        !look_at_box(view, splits.plane[splits.count], scene, seen))
         return false;
     for (int first = 0; first < splits.count; first += 4) {
         int const left = splits.count - first < 4 ? splits.count - first : 4;
@@ -311,7 +447,7 @@ template <class T, class Visit>
             plane = padded;
         }
         FourVectors<T> lo, hi;
-        run_widely(FourSlices<T>{seen, basis, plane, lo, hi});
+        run_widely(FourSlices<T>{seen, plane, lo, hi});
         visit(first, left, lo, hi);
     }
     return true;
@@ -360,7 +496,7 @@ template <class T>
         detail::transpose(scale);
         detail::transpose(moved);
         for (int i = 0; i < count; ++i) {
-            if (!(lo.x[i] <= hi.x[i] && lo.y[i] <= hi.y[i] && lo.z[i] <= hi.z[i])) {
+            if (!(lo.x[i] <= hi.x[i])) {  // nothing is nothing on every axis
                 clip_from_world[first + i] = nowhere<T>();
                 continue;
             }
