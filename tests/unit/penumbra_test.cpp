@@ -93,5 +93,10 @@ TEST(Penumbra, OfALampBeyondAllNumbersHasNoMetres) {
     Light<float> const lamp = spot(Vec3<float>(most), Vec3<float>(0, -1, 0), 0.5f, 10.0f);
     EXPECT_EQ(metres_of_gap(lamp, Vec3<float>(-most), 1.0f), 0.0f);
     Light<double> const sun = directional(Vec3<double>(0, -1, 0));
-    EXPECT_EQ(penumbra_for(ShadowMap<double>{}, sun, std::numeric_limits<double>::infinity()).rim_x, Vec4<double>(0.0));
+    ShadowMap<double> map;
+    map.clip_from_world = clip_from_world(LightBox<double>{}, map.clip);
+    map.visible = true;
+    EXPECT_NE(penumbra_for(map, sun, 0.01).rim_x, Vec4<double>(0.0));
+    EXPECT_EQ(penumbra_for(map, sun, std::numeric_limits<double>::infinity()).rim_x, Vec4<double>(0.0));
+    EXPECT_EQ(penumbra_for(ShadowMap<double>{}, sun, 0.01).rim_x, Vec4<double>(0.0));
 }
