@@ -71,6 +71,11 @@ TEST(GpuSamples, SayWhatWasAskedFor) {
         EXPECT_EQ(fit(camera).pancake, on ? 1 : 0);
         EXPECT_EQ(fit(camera).forward.w == 0.0f, on) << "still maps take their margin from the grid";
     }
+    options.still = false;
+    options.map_size = 512;
+    options.margin_texels = 6.0f;
+    EXPECT_EQ(fit(camera).forward.w, 0.5f * 12.0f / 500.0f) << "half of what is left, as a share of what is used";
+    EXPECT_NEAR(fit(camera).right.w * 499.0f, 1.0f, 1e-6f);
     splits.kind = SampleSplits::even;
     EXPECT_EQ(fit(camera).adaptive, 0);
     for (auto const& [count, kept] : {std::pair(-2, 0), std::pair(3, 3), std::pair(1000, max_splits)}) {

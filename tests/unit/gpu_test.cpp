@@ -137,3 +137,12 @@ TEST(Gpu, NoCascadesAreNone) {
 }
 
 }  // namespace
+
+TEST(Gpu, HoldsAsManyMapsAsThereCanBe) {
+    Cascades<float> cascades;
+    cascades.count = max_splits;
+    cascades.at[max_splits - 1].range.end = 7.0f;
+    GpuCascades const gpu = gpu_cascades(cascades, directional(Vec3<float>(0, -1, 0)), CascadeOptions<float>{});
+    EXPECT_EQ(gpu.count, max_splits);
+    EXPECT_EQ(gpu.ranges.end[max_splits - 1], 7.0f);
+}

@@ -95,3 +95,8 @@ TEST(Light, NamesWhicheverNumberIsNone) {
         EXPECT_TRUE(faults_of(bad).has(Fault::not_finite));
     }
 }
+
+TEST(Light, OfAnyRangeAboveNoneIsOne) {
+    EXPECT_FALSE(spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 0.25).faults.any());
+    EXPECT_TRUE(spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 0.0).faults.has(Fault::empty_range));
+}
