@@ -154,6 +154,32 @@ TYPED_TEST(CascadesOf, AnEndlessViewNeedsAShadowDistance) {
     EXPECT_EQ(given.at[given.count - 1].range.end, TypeParam(250));
 }
 
+TYPED_TEST(CascadesOf, AnEndlessViewOfALargeUnitEndsAtTenThousandNearDistances) {
+    this->view.z_near = TypeParam(20);
+    this->view.z_far = std::numeric_limits<TypeParam>::infinity();
+    auto const cut = this->fitted();
+    EXPECT_EQ(cut.at[cut.count - 1].range.end, TypeParam(20) * TypeParam(1e4));
+}
+
+TYPED_TEST(CascadesOf, AKernelOfNegativeRadiusIsOneOfNone) {
+    this->options.filter_radius = 0;
+    auto const none = this->fitted();
+    this->options.filter_radius = -3;
+    auto const negative = this->fitted();
+    EXPECT_TRUE(negative.faults.has(Fault::clamped_option));
+    EXPECT_EQ(negative.at[0].map.clip_from_world, none.at[0].map.clip_from_world);
+}
+
+TYPED_TEST(CascadesOf, AFrameBeforeWithFewerMapsHelpsThoseThatItHad) {
+    this->options.count = 2;
+    auto const before = this->fitted();
+    this->options.count = 4;
+    auto const after = fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
+    auto const fresh = this->fitted();
+    EXPECT_EQ(after.count, 4);
+    for (int i = 2; i < 4; ++i) EXPECT_EQ(after.at[i].map.clip_from_world, fresh.at[i].map.clip_from_world);
+}
+
 TYPED_TEST(CascadesOf, APinnedFirstSplitEndsWhereItIsPinned) {
     this->options.first_split_end = TypeParam(2);
     EXPECT_EQ(this->fitted().at[0].range.end, TypeParam(2));

@@ -115,6 +115,17 @@ TEST(CasterMask, OfAMapThatIsNotVisibleOrNotFiniteIsClearAndKeepsItsPlace) {
     EXPECT_EQ(caster_mask(CasterMaps<double>{}, cube(V3(0, 5, 0))), 0);
 }
 
+TEST(CasterMask, OfAMapWhoseSideIsNoPlaneIsThatOfTheOtherSides) {
+    // Everything lands in the middle of the first map, and beside the second.
+    ShadowMap<double> maps[2] = {square(4), square(4)};
+    for (ShadowMap<double>& map : maps)
+        for (int column = 0; column < 4; ++column) map.clip_from_world[column][0] = 0.0;
+    maps[1].clip_from_world[3][0] = 2.0;
+    CasterMaps<double> const both = caster_maps(maps, 2);
+    EXPECT_EQ(caster_mask(both, cube(V3(900, 5, 0))), 0b01);
+    EXPECT_EQ(caster_mask(both, cube(V3(0, 5, 900))), 0);
+}
+
 TEST(CasterMask, TakesMapsThatLookDifferentWays) {
     ShadowMap<double> maps[max_caster_maps];
     for (int i = 0; i < max_caster_maps; ++i) {

@@ -142,3 +142,10 @@ TEST(Visibility, BiasIsInFavourOfLightInBothDepthOrders) {
         EXPECT_EQ(visibility(map, 16, point, up, bias, {}, occluder), 1.0);
     }
 }
+
+TEST(Filter, OfASlopeThatIsNoNumberIsLit) {
+    auto const black = [](int, int) { return 0.0; };
+    for (DepthSlope<double> const& slope :
+         {DepthSlope<double>{not_a_number, 0.0}, DepthSlope<double>{0.0, not_a_number}})
+        EXPECT_EQ(filtered(Receiver<double>{Vec2<double>(8.0), 0.5, slope}, 16, plain, {1, true}, black), 1.0);
+}

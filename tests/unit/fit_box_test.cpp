@@ -98,11 +98,13 @@ TYPED_TEST(FitBox, BoundsBeyondReachHaveTheBoxOfNothing) {
     using T = TypeParam;
     T const farthest = detail::farthest_metres<T>;
     LightBox<T> const nothing;
-    for (T const at : {T(2.5) * farthest, T(-2.5) * farthest}) {
-        Aabb<T> const body = merge(Aabb<T>{Vec3<T>(T(-1)), Vec3<T>(T(1))}, Vec3<T>(T(0), at, T(0)));
+    for (T const at : {T(2.5) * farthest, T(-2.5) * farthest, std::numeric_limits<T>::quiet_NaN()}) {
+        Aabb<T> body{Vec3<T>(T(-1)), Vec3<T>(T(1))};
+        (at < T(0) ? body.lo : body.hi).y = at;
         LightBox<T> const box = box_around(LightBasis<T>{}, body, 100, T(2));
         EXPECT_TRUE(box.lo == nothing.lo && box.hi == nothing.hi && box.depth_lo == nothing.depth_lo);
     }
+    EXPECT_EQ(box_around(LightBasis<T>{}, Aabb<T>{}, 100, T(2)).hi, nothing.hi);
 }
 
 TEST(Margin, NamesWhatIsWrongWithIt) {

@@ -149,6 +149,23 @@ TYPED_TEST(FitCrop, ASliceSmallerThanAMetreIsServed) {
     EXPECT_TRUE(laws::serves(map, 1024, T(2), Vec3<T>(0), T(1e-3)));
 }
 
+TYPED_TEST(FitCrop, ReceiversNearerThanALampCastsAreInTheDark) {
+    using T = TypeParam;
+    // Nearer than 1/4096 of the range nothing casts.
+    Aabb<T> const fly{Vec3<T>(T(-0.001), T(10) - T(0.004), T(-0.001)), Vec3<T>(T(0.001), T(10) - T(0.002), T(0.001))};
+    this->view.pose = pose_looking(Vec3<T>(0, 10, 8), Vec3<T>(0, 0, -1), Vec3<T>(0, 1, 0));
+    EXPECT_FALSE(this->fit(this->crate, fly).visible);
+}
+
+TYPED_TEST(FitCrop, CastersInTheConeButBesideWhatIsSeenNeedNoMap) {
+    using T = TypeParam;
+    Aabb<T> const tile{Vec3<T>(-4, T(-0.1), -1), Vec3<T>(-3, 0, 1)}, beside{Vec3<T>(3, 1, -1), Vec3<T>(4, 2, 1)};
+    auto const map = this->fit(beside, tile);
+    EXPECT_FALSE(map.visible);
+    EXPECT_FALSE(map.faults.any());
+    EXPECT_TRUE(this->fit({Vec3<T>(-4, 1, -1), Vec3<T>(-3, 2, 1)}, tile).visible);
+}
+
 TYPED_TEST(FitCrop, AConeThatEndsAtTheFarthestOrTheLeastDistanceIsWithinReach) {
     using T = TypeParam;
     for (T const range : {detail::farthest_metres<T> / T(20), detail::least_metres<T>}) {

@@ -193,6 +193,11 @@ TEST(LightSamples, PointsThatAreNotSeenAreUnusable) {
         }
 }
 
+TEST(LightSamples, AnySizeOfAPictureWillDo) {
+    EXPECT_TRUE(light_sampler(some_view(), morning, V2(1, 1), V2(1, 1)).usable);
+    EXPECT_TRUE(light_sampler(some_view(), morning, V2(0.5, 0.5), V2(0.25, 0.25)).usable);
+}
+
 TEST(LightSamples, ASamplerOfBadInputIsUnusableAndSoAreItsSamples) {
     ViewVolume<double> const view = some_view();
     SurfacePoint<double> const surface{point_at(view, 0.1, 0.1, 5.0), V3(0, 1, 0)};

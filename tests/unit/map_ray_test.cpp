@@ -87,3 +87,12 @@ TYPED_TEST(MapRayOf, WhatIsNoMapHasNoRay) {
     EXPECT_EQ(light_error_radians(map, spot(point, Vec3<T>(T(0), T(0), T(1)), T(0.5), T(10)), point), pi)
         << "the lamp is the point";
 }
+
+TEST(MapRay, OfAMapWithoutDepthIsNone) {
+    ShadowMap<double> map;
+    map.clip_from_world = Mat4<double>(1.0);
+    map.visible = true;
+    EXPECT_TRUE(map_ray(map, Vec3<double>(0.0)).ok);
+    map.clip_from_world[2][2] = 0.0;
+    EXPECT_FALSE(map_ray(map, Vec3<double>(0.0)).ok) << "all depths are stored as one";
+}

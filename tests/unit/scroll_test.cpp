@@ -71,3 +71,37 @@ TEST(Unchanged, SeesASingleBit) {
     moved.visible = false;
     EXPECT_FALSE(unchanged(map, moved));
 }
+
+TEST(Unchanged, SeesAnotherConvention) {
+    ShadowMap<double> map;
+    map.visible = true;
+    for (ClipSpace const clip : {reversed(map.clip), vulkan_clip}) {
+        ShadowMap<double> other = map;
+        other.clip = clip;
+        EXPECT_FALSE(unchanged(map, other));
+    }
+}
+
+TEST(Scroll, KeepsNothingWhereTheLightTurnedByABit) {
+    TexelGrid<double> const before = window_at(0.0, 0.0);
+    for (V3 LightBasis<double>::*axis : {&LightBasis<double>::x, &LightBasis<double>::y, &LightBasis<double>::depth}) {
+        TexelGrid<double> after = before;
+        (after.basis.*axis).z = std::nextafter((after.basis.*axis).z, 9.0);
+        EXPECT_FALSE(scroll_between(before, after).kept);
+        EXPECT_EQ(scroll_between(before, after).fresh.count, 1);
+    }
+}
+
+TEST(Wrapped, LeavesOutARectangleThatIsLargerThanTheMap) {
+    TexelGrid<double> const grid = window_at(3.0, 2.0);
+    EXPECT_EQ(wrapped(grid, TexelRect{0, 0, 17, 1}).count, 0);
+    EXPECT_EQ(wrapped(grid, TexelRect{0, 0, 1, 17}).count, 0);
+}
+
+TEST(TexelRects, HoldNoMoreThanTheyHaveRoomFor) {
+    TexelRects<2> rects;
+    for (int i = 0; i < 3; ++i) rects.add({i, 0, 1, 1});
+    rects.add({0, 0, 0, 5});
+    EXPECT_EQ(rects.count, 2);
+    EXPECT_EQ(rects.at[1].x, 1);
+}

@@ -86,3 +86,20 @@ TEST(Sweep, OfNothingHoldsNothing) {
     EXPECT_FALSE(may_meet(swept, unit_box));
     EXPECT_EQ(clipped(convex_body(unit_box), swept).edge_count, 0);
 }
+
+TEST(Sweep, OfABodyThatHasRunOutOfFacesIsTooLargeAndNeverTooSmall) {
+    ConvexBody<double> body = convex_body(Aabb<double>{Vec3<double>(-1.0), Vec3<double>(1.0)});
+    HalfSpaces<double> planes;
+    planes.visible = true;
+    for (int i = 0; i < max_body_faces; ++i) {
+        double const angle = 0.19 * i;
+        planes.at[static_cast<unsigned>(planes.count++)] = Vec4<double>(std::cos(angle), std::sin(angle), 0.0, 0.99);
+    }
+    ConvexBody<double> const part = clipped(body, planes);
+    EXPECT_EQ(part.face_count, max_body_faces);
+    EXPECT_GT(part.edge_count, 12);
+    body.face_count = max_body_faces;
+#if defined(NDEBUG)
+    EXPECT_EQ(clipped(body, Vec4<double>(1, 0, 0, 0)).edge_count, body.edge_count) << "a cut too many cuts nothing";
+#endif
+}
