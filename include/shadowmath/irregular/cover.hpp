@@ -35,6 +35,7 @@ struct CoverKernel {
     PixelFrame<Wider<T>> const& frame;
 
     using Real = Wider<T>;
+    using Wide = typename Lanes::Wide;
 
     // Tiles that wait, and the slots of the triangles that may darken each.
     struct Queue {
@@ -136,19 +137,27 @@ struct CoverKernel {
         pairs.count = kept;
     }
 
-    // Here large terms cancel; what is left is no more than a tile's worth.
+    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is no
+    // more than a tile's worth.
     void place(std::uint32_t tile, RaisedTriangle<T> const* raised, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        Real const x =
-            Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2);
-        Real const y =
-            Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2);
-        auto const tile_q = Real(surface_of(tile)[tile_q_at]);
-        for (std::uint32_t n = 0; n < pairs.count; ++n) {
-            RaisedTriangle<T> const& planes = raised[pairs.slot[n]];
-            for (int i = 0; i < 4; ++i)
-                pairs.here[n][i] =
-                    static_cast<T>(planes.x[i] * x + planes.y[i] * y + (planes.a[i] + planes.b[i] * tile_q));
+        auto const all = [](Real value) { return Wide::all(value); };
+        Wide const x = all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) -
+                           Real(frame.width) / Real(2));
+        Wide const y = all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) -
+                           Real(frame.height) / Real(2));
+        Wide const q = all(Real(surface_of(tile)[tile_q_at]));
+        for (std::uint32_t n = 0; n < pairs.count; n += 4) {
+            // Past the last, the first once more.
+            RaisedTriangle<T> const* four[4];
+            for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : 0];
+            auto const rows = [&four](Real const (RaisedTriangle<T>::*plane)[4]) {
+                Real const* const row[4] = {four[0]->*plane, four[1]->*plane, four[2]->*plane, four[3]->*plane};
+                return Wide::rows(row);
+            };
+            using Raised = RaisedTriangle<T>;
+            Lanes::narrow(fused(rows(&Raised::x), x, fused(rows(&Raised::y), y, fused(rows(&Raised::b), q, rows(&Raised::a)))))
+                .store(pairs.here[n]);
         }
     }
 
@@ -199,11 +208,9 @@ struct CoverKernel {
         for (std::uint32_t bits = full; bits != 0; bits &= bits - 1) masks[lowest_bit(bits)] = every_sample;
         for (std::uint32_t bits = pixels & ~full; bits != 0; bits &= bits - 1) {
             int const k = lowest_bit(bits);
-            std::uint32_t dark = every_sample;
-            for (auto const& line : stored)
-                dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][k], line[1][k], line[2][k]});
-            dark |= masks[k];
-            masks[k] = dark;
+            PixelLine<T> lines_here[4];
+            for (int i = 0; i < 4; ++i) lines_here[i] = {stored[i][0][k], stored[i][1][k], stored[i][2][k]};
+            std::uint32_t const dark = masks[k] |= half_planes_mask<Lanes>(lines_here);
             done |= (dark == every_sample ? 1u : 0u) << k;
         }
         return done;

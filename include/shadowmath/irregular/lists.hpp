@@ -112,7 +112,7 @@ template <class T>
     for (std::uint32_t texel = 0; texel < texels; ++texel) {
         std::uint32_t const nodes = buffer.texel_division[texel];
         std::uint32_t k = 0;
-        while (k < most_divisions && (std::uint32_t(16) << 2 * k) <= nodes) ++k;
+        while (k < most_divisions && (std::uint32_t(64) << 2 * k) <= nodes) ++k;
         buffer.texel_division[texel] = k;
         buffer.texel_lists[texel] = lists;
         lists += 1 + (1u << 2 * k);
