@@ -194,19 +194,15 @@ struct CoverKernel {
     // Gives the pixels that have no sample left.
     [[nodiscard]] static std::uint32_t darken(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4],
                                               std::uint32_t pixels, std::uint32_t* masks) noexcept {
-        Lanes const zero = Lanes::all(T(0));
         Lines const lines = lines_of(quads, planes, here);
-        std::uint32_t full = pixels;
         T stored[4][3][lane_count];
         for (int i = 0; i < 4; ++i) {
-            full &= at_least((lines.c[i] + least(lines.x[i], zero)) + least(lines.y[i], zero), zero);
             lines.c[i].store(stored[i][0]);
             lines.x[i].store(stored[i][1]);
             lines.y[i].store(stored[i][2]);
         }
-        std::uint32_t done = full;
-        for (std::uint32_t bits = full; bits != 0; bits &= bits - 1) masks[lowest_bit(bits)] = every_sample;
-        for (std::uint32_t bits = pixels & ~full; bits != 0; bits &= bits - 1) {
+        std::uint32_t done = 0;
+        for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
             int const k = lowest_bit(bits);
             PixelLine<T> lines_here[4];
             for (int i = 0; i < 4; ++i) lines_here[i] = {stored[i][0][k], stored[i][1][k], stored[i][2][k]};
