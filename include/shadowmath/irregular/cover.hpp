@@ -101,7 +101,7 @@ struct CoverKernel {
         std::uint32_t done = 0;
         for (std::uint32_t i = 0; i < crossings; ++i) {
             std::uint32_t const pair = crossing[i];
-            done |= darken(quads, raised[pairs.slot[pair]], pairs.here[pair], pairs.pixels[pair] & ~done, masks);
+            done |= darken(quads, raised[pairs.slot[pair]], pairs.here[pair], pairs.pixels[pair], masks);
         }
         alive &= ~done;
     }
