@@ -46,6 +46,7 @@ struct CoverKernel {
         std::uint32_t tiles = 0;
         std::uint32_t slots = 0;
 
+        [[nodiscard]] std::uint32_t* next() noexcept { return slot + slots; }
         [[nodiscard]] bool full() const noexcept { return tiles == most_tiles || slots >= most_slots; }
     };
 
