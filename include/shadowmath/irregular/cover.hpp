@@ -50,11 +50,13 @@ struct CoverKernel {
         [[nodiscard]] bool full() const noexcept { return tiles == most_tiles || slots >= most_slots; }
     };
 
-    // The triangles of one tile that remain.
+    // Pairs of a tile and a triangle that remain.
     struct Pairs {
-        std::uint32_t slot[chunk_room];
-        std::uint32_t pixels[chunk_room];
-        T here[chunk_room][4];  // the four planes' values at the corner of the tile
+        static constexpr std::uint32_t room = Queue::most_slots + chunk_room;
+        std::uint32_t tile[room];
+        std::uint32_t slot[room];
+        std::uint32_t pixels[room];
+        T here[room + 3][4];  // the four planes' values at the corner of the tile
         std::uint32_t count = 0;
     };
 
@@ -79,32 +81,27 @@ struct CoverKernel {
     }
 
     void cover(RaisedTriangle<T> const* raised, Queue& queue) const noexcept {
+        Pairs pairs;
         queue.begin[queue.tiles] = queue.slots;
-        for (std::uint32_t i = 0; i < queue.tiles; ++i)
-            cover(queue.tile[i], raised, queue.slot + queue.begin[i], queue.begin[i + 1] - queue.begin[i]);
+        for (std::uint32_t i = 0; i < queue.tiles; ++i) {
+            std::uint32_t const first = pairs.count;
+            leave_out(queue.tile[i], raised, queue.slot + queue.begin[i], queue.begin[i + 1] - queue.begin[i], pairs);
+            place(queue.tile[i], raised, first, pairs);
+        }
         queue.tiles = queue.slots = 0;
+        std::uint32_t crossing[Pairs::room];
+        std::uint32_t const crossings = cross(raised, pairs, crossing);
+        for (std::uint32_t i = 0; i < crossings; ++i) {
+            std::uint32_t const n = crossing[i], tile = pairs.tile[n];
+            std::uint32_t* const state = state_of(tile);
+            state[alive_at] &= ~darken(quads_of(tile), raised[pairs.slot[n]], pairs.here[n], pairs.pixels[n], state + mask_at);
+        }
     }
 
-    void cover(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t const* slots,
-               std::uint32_t count) const noexcept {
-        std::uint32_t& alive = state_of(tile)[alive_at];
-        if (alive == 0) return;
-        Pairs pairs;
-        leave_out(tile, raised, slots, count, pairs);
-        if (pairs.count == 0) return;
-        place(tile, raised, pairs);
+    [[nodiscard]] Quads quads_of(std::uint32_t tile) const noexcept {
         T const* const surface = surface_of(tile);
-        Quads const quads{Lanes::load(surface), Lanes::load(surface + lane_count), Lanes::load(surface + 2 * lane_count),
-                          Lanes::load(tile_columns<T>), Lanes::load(tile_rows<T>)};
-        std::uint32_t crossing[chunk_room];
-        std::uint32_t const crossings = cross(quads, raised, pairs, crossing);
-        std::uint32_t* const masks = state_of(tile) + mask_at;
-        std::uint32_t done = 0;
-        for (std::uint32_t i = 0; i < crossings; ++i) {
-            std::uint32_t const pair = crossing[i];
-            done |= darken(quads, raised[pairs.slot[pair]], pairs.here[pair], pairs.pixels[pair], masks);
-        }
-        alive &= ~done;
+        return {Lanes::load(surface), Lanes::load(surface + lane_count), Lanes::load(surface + 2 * lane_count),
+                Lanes::load(tile_columns<T>), Lanes::load(tile_rows<T>)};
     }
 
     [[nodiscard]] T* surface_of(std::uint32_t tile) const noexcept {
@@ -126,11 +123,12 @@ struct CoverKernel {
         };
         Lanes const bounds[5] = {bound(0), bound(1), bound(2), bound(3), bound(4)};
         std::uint32_t const alive = state[alive_at];
-        std::uint32_t kept = 0;
+        std::uint32_t kept = pairs.count;
         for (std::uint32_t n = 0; n < count; ++n) {
             T const(&keys)[5] = raised[slots[n]].keys;
             std::uint32_t pixels = alive;
             for (int i = 0; i < 5; ++i) pixels &= at_least(Lanes::all(keys[i]), bounds[i]);
+            pairs.tile[kept] = tile;
             pairs.slot[kept] = slots[n];
             pairs.pixels[kept] = pixels;
             kept += pixels != 0 ? 1u : 0u;
@@ -140,7 +138,7 @@ struct CoverKernel {
 
     // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is no
     // more than a tile's worth.
-    void place(std::uint32_t tile, RaisedTriangle<T> const* raised, Pairs& pairs) const noexcept {
+    void place(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t first, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
         auto const all = [](Real value) { return Wide::all(value); };
         Wide const x = all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) -
@@ -148,10 +146,10 @@ struct CoverKernel {
         Wide const y = all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) -
                            Real(frame.height) / Real(2));
         Wide const q = all(Real(surface_of(tile)[tile_q_at]));
-        for (std::uint32_t n = 0; n < pairs.count; n += 4) {
-            // Past the last, the first once more.
+        for (std::uint32_t n = first; n < pairs.count; n += 4) {
+            // Past the last, the tile's first once more.
             RaisedTriangle<T> const* four[4];
-            for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : 0];
+            for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : first];
             auto const rows = [&four](Real const (RaisedTriangle<T>::*plane)[4]) {
                 Real const* const row[4] = {four[0]->*plane, four[1]->*plane, four[2]->*plane, four[3]->*plane};
                 return Wide::rows(row);
@@ -176,12 +174,12 @@ struct CoverKernel {
 
     // Leaves the pixels of which a sample may be within all four planes, in the order of half_plane_mask: rounding is
     // monotone. Gives the pairs that have some.
-    [[nodiscard]] static std::uint32_t cross(Quads const& quads, RaisedTriangle<T> const* raised, Pairs& pairs,
-                                             std::uint32_t* crossing) noexcept {
+    [[nodiscard]] std::uint32_t cross(RaisedTriangle<T> const* raised, Pairs& pairs,
+                                      std::uint32_t* crossing) const noexcept {
         Lanes const zero = Lanes::all(T(0));
         std::uint32_t kept = 0;
         for (std::uint32_t n = 0; n < pairs.count; ++n) {
-            Lines const lines = lines_of(quads, raised[pairs.slot[n]], pairs.here[n]);
+            Lines const lines = lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], pairs.here[n]);
             std::uint32_t pixels = pairs.pixels[n];
             for (int i = 0; i < 4; ++i)
                 pixels &= at_least((lines.c[i] + most(lines.x[i], zero)) + most(lines.y[i], zero), zero);
