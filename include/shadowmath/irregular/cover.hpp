@@ -178,11 +178,18 @@ struct CoverKernel {
                                       std::uint32_t* crossing) const noexcept {
         Lanes const zero = Lanes::all(T(0));
         std::uint32_t kept = 0;
+        std::uint32_t behind = 0;
         for (std::uint32_t n = 0; n < pairs.count; ++n) {
-            Lines const lines = lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], pairs.here[n]);
+            std::uint32_t const pixels = pairs.pixels[n] & touched(quads_of(pairs.tile[n]), raised[pairs.slot[n]], pairs.here[n], 0);
+            pairs.pixels[n] = pixels;
+            crossing[behind] = n;
+            behind += pixels != 0 ? 1u : 0u;
+        }
+        for (std::uint32_t m = 0; m < behind; ++m) {
+            std::uint32_t const n = crossing[m];
             std::uint32_t pixels = pairs.pixels[n];
-            for (int i = 0; i < 4; ++i)
-                pixels &= at_least((lines.c[i] + most(lines.x[i], zero)) + most(lines.y[i], zero), zero);
+            Quads const quads = quads_of(pairs.tile[n]);
+            for (int i = 1; i < 4; ++i) pixels &= touched(quads, raised[pairs.slot[n]], pairs.here[n], i);
             pairs.pixels[n] = pixels;
             crossing[kept] = n;
             kept += pixels != 0 ? 1u : 0u;
@@ -190,6 +197,14 @@ struct CoverKernel {
         return kept;
     }
 
+    [[nodiscard]] static std::uint32_t touched(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4], int i) noexcept {
+        Lanes const zero = Lanes::all(T(0));
+            Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
+                        by_q = Lanes::all(planes.by_q[i]);
+            Lanes const c = fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i]))));
+            Lanes const x = fused(by_q, quads.q_x, across), y = fused(by_q, quads.q_y, upward);
+            return at_least((c + most(x, zero)) + most(y, zero), zero);
+    }
     // Gives the pixels that have no sample left.
     [[nodiscard]] static std::uint32_t darken(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4],
                                               std::uint32_t pixels, std::uint32_t* masks) noexcept {
