@@ -95,6 +95,10 @@ inline void for_each_list(IrregularBuffer<T> const& buffer, std::uint32_t const*
             auto const k = static_cast<int>(buffer.texel_division[texel]);
             PlaceRange const in = divisions_of(places, x, y, k);
             std::uint32_t const first = buffer.texel_lists[texel];
+            if (k == 0) {
+                list(first + 1);
+                continue;
+            }
             // More than four divisions: listed once, for all triangles of the texel.
             if (in.x1 - in.x0 > 1 || in.y1 - in.y0 > 1)
                 list(first);
