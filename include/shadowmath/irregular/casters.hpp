@@ -95,6 +95,7 @@ struct CasterKernel {
 
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
+        T const* at[3][lane_count];
         batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
@@ -102,11 +103,16 @@ struct CasterKernel {
             for (std::uint32_t i = 0; i < 3; ++i) {
                 std::size_t vertex = 3 * triangle + i;
                 if (casters.index != nullptr) vertex = casters.index[vertex];
-                ok = ok && vertex < casters.vertex_count;
-                T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis];
+                bool const held = vertex < casters.vertex_count;
+                ok = ok && held;
+                at[i][k] = casters.position + (held ? vertex * static_cast<std::size_t>(casters.stride) : 0);
             }
             batch.sound |= (ok ? 1u : 0u) << k;
+        }
+        for (int i = 0; i < 3; ++i) {
+            Lanes xyz[3];
+            Lanes::points(at[i], xyz);
+            for (int axis = 0; axis < 3; ++axis) xyz[axis].store(batch.vertex[i][axis]);
         }
         find(batch);
     }

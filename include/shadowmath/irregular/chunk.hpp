@@ -18,7 +18,7 @@ inline namespace v0 {
 
 namespace detail {
 
-inline constexpr std::uint32_t chunk_room = 128;
+inline constexpr std::uint32_t chunk_room = 192;
 
 // What a tile needs of a triangle.
 template <class T>

@@ -35,6 +35,7 @@ struct CoverKernel {
     PixelFrame<Wider<T>> const& frame;
 
     using Real = Wider<T>;
+    using Wide = typename Lanes::Wide;
 
     // Tiles that wait, and the slots of the triangles that may darken each.
     struct Queue {
@@ -45,14 +46,17 @@ struct CoverKernel {
         std::uint32_t tiles = 0;
         std::uint32_t slots = 0;
 
+        [[nodiscard]] std::uint32_t* next() noexcept { return slot + slots; }
         [[nodiscard]] bool full() const noexcept { return tiles == most_tiles || slots >= most_slots; }
     };
 
-    // The triangles of one tile that remain.
+    // Pairs of a tile and a triangle that remain.
     struct Pairs {
-        std::uint32_t slot[chunk_room];
-        std::uint32_t pixels[chunk_room];
-        T here[chunk_room][4];  // the four planes' values at the corner of the tile
+        static constexpr std::uint32_t room = Queue::most_slots + chunk_room;
+        std::uint32_t tile[room];
+        std::uint32_t slot[room];
+        std::uint32_t pixels[room];
+        T here[room + 3][4];  // the four planes' values at the corner of the tile
         std::uint32_t count = 0;
     };
 
@@ -77,32 +81,27 @@ struct CoverKernel {
     }
 
     void cover(RaisedTriangle<T> const* raised, Queue& queue) const noexcept {
+        Pairs pairs;
         queue.begin[queue.tiles] = queue.slots;
-        for (std::uint32_t i = 0; i < queue.tiles; ++i)
-            cover(queue.tile[i], raised, queue.slot + queue.begin[i], queue.begin[i + 1] - queue.begin[i]);
+        for (std::uint32_t i = 0; i < queue.tiles; ++i) {
+            std::uint32_t const first = pairs.count;
+            leave_out(queue.tile[i], raised, queue.slot + queue.begin[i], queue.begin[i + 1] - queue.begin[i], pairs);
+            place(queue.tile[i], raised, first, pairs);
+        }
         queue.tiles = queue.slots = 0;
+        std::uint32_t crossing[Pairs::room];
+        std::uint32_t const crossings = cross(raised, pairs, crossing);
+        for (std::uint32_t i = 0; i < crossings; ++i) {
+            std::uint32_t const n = crossing[i], tile = pairs.tile[n];
+            std::uint32_t* const state = state_of(tile);
+            state[alive_at] &= ~darken(quads_of(tile), raised[pairs.slot[n]], pairs.here[n], pairs.pixels[n], state + mask_at);
+        }
     }
 
-    void cover(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t const* slots,
-               std::uint32_t count) const noexcept {
-        std::uint32_t& alive = state_of(tile)[alive_at];
-        if (alive == 0) return;
-        Pairs pairs;
-        leave_out(tile, raised, slots, count, pairs);
-        if (pairs.count == 0) return;
-        place(tile, raised, pairs);
+    [[nodiscard]] Quads quads_of(std::uint32_t tile) const noexcept {
         T const* const surface = surface_of(tile);
-        Quads const quads{Lanes::load(surface), Lanes::load(surface + lane_count), Lanes::load(surface + 2 * lane_count),
-                          Lanes::load(tile_columns<T>), Lanes::load(tile_rows<T>)};
-        std::uint32_t crossing[chunk_room];
-        std::uint32_t const crossings = cross(quads, raised, pairs, crossing);
-        std::uint32_t* const masks = state_of(tile) + mask_at;
-        std::uint32_t done = 0;
-        for (std::uint32_t i = 0; i < crossings; ++i) {
-            std::uint32_t const pair = crossing[i];
-            done |= darken(quads, raised[pairs.slot[pair]], pairs.here[pair], pairs.pixels[pair] & ~done, masks);
-        }
-        alive &= ~done;
+        return {Lanes::load(surface), Lanes::load(surface + lane_count), Lanes::load(surface + 2 * lane_count),
+                Lanes::load(tile_columns<T>), Lanes::load(tile_rows<T>)};
     }
 
     [[nodiscard]] T* surface_of(std::uint32_t tile) const noexcept {
@@ -124,11 +123,12 @@ struct CoverKernel {
         };
         Lanes const bounds[5] = {bound(0), bound(1), bound(2), bound(3), bound(4)};
         std::uint32_t const alive = state[alive_at];
-        std::uint32_t kept = 0;
+        std::uint32_t kept = pairs.count;
         for (std::uint32_t n = 0; n < count; ++n) {
             T const(&keys)[5] = raised[slots[n]].keys;
             std::uint32_t pixels = alive;
             for (int i = 0; i < 5; ++i) pixels &= at_least(Lanes::all(keys[i]), bounds[i]);
+            pairs.tile[kept] = tile;
             pairs.slot[kept] = slots[n];
             pairs.pixels[kept] = pixels;
             kept += pixels != 0 ? 1u : 0u;
@@ -136,19 +136,27 @@ struct CoverKernel {
         pairs.count = kept;
     }
 
-    // Here large terms cancel; what is left is no more than a tile's worth.
-    void place(std::uint32_t tile, RaisedTriangle<T> const* raised, Pairs& pairs) const noexcept {
+    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is no
+    // more than a tile's worth.
+    void place(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t first, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        Real const x =
-            Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2);
-        Real const y =
-            Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2);
-        auto const tile_q = Real(surface_of(tile)[tile_q_at]);
-        for (std::uint32_t n = 0; n < pairs.count; ++n) {
-            RaisedTriangle<T> const& planes = raised[pairs.slot[n]];
-            for (int i = 0; i < 4; ++i)
-                pairs.here[n][i] =
-                    static_cast<T>(planes.x[i] * x + planes.y[i] * y + (planes.a[i] + planes.b[i] * tile_q));
+        auto const all = [](Real value) { return Wide::all(value); };
+        Wide const x = all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) -
+                           Real(frame.width) / Real(2));
+        Wide const y = all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) -
+                           Real(frame.height) / Real(2));
+        Wide const q = all(Real(surface_of(tile)[tile_q_at]));
+        for (std::uint32_t n = first; n < pairs.count; n += 4) {
+            // Past the last, the tile's first once more.
+            RaisedTriangle<T> const* four[4];
+            for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : first];
+            auto const rows = [&four](Real const (RaisedTriangle<T>::*plane)[4]) {
+                Real const* const row[4] = {four[0]->*plane, four[1]->*plane, four[2]->*plane, four[3]->*plane};
+                return Wide::rows(row);
+            };
+            using Raised = RaisedTriangle<T>;
+            Lanes::narrow(fused(rows(&Raised::x), x, fused(rows(&Raised::y), y, fused(rows(&Raised::b), q, rows(&Raised::a)))))
+                .store(pairs.here[n]);
         }
     }
 
@@ -166,15 +174,22 @@ struct CoverKernel {
 
     // Leaves the pixels of which a sample may be within all four planes, in the order of half_plane_mask: rounding is
     // monotone. Gives the pairs that have some.
-    [[nodiscard]] static std::uint32_t cross(Quads const& quads, RaisedTriangle<T> const* raised, Pairs& pairs,
-                                             std::uint32_t* crossing) noexcept {
+    [[nodiscard]] std::uint32_t cross(RaisedTriangle<T> const* raised, Pairs& pairs,
+                                      std::uint32_t* crossing) const noexcept {
         Lanes const zero = Lanes::all(T(0));
         std::uint32_t kept = 0;
+        std::uint32_t behind = 0;
         for (std::uint32_t n = 0; n < pairs.count; ++n) {
-            Lines const lines = lines_of(quads, raised[pairs.slot[n]], pairs.here[n]);
+            std::uint32_t const pixels = pairs.pixels[n] & touched(quads_of(pairs.tile[n]), raised[pairs.slot[n]], pairs.here[n], 0);
+            pairs.pixels[n] = pixels;
+            crossing[behind] = n;
+            behind += pixels != 0 ? 1u : 0u;
+        }
+        for (std::uint32_t m = 0; m < behind; ++m) {
+            std::uint32_t const n = crossing[m];
             std::uint32_t pixels = pairs.pixels[n];
-            for (int i = 0; i < 4; ++i)
-                pixels &= at_least((lines.c[i] + most(lines.x[i], zero)) + most(lines.y[i], zero), zero);
+            Quads const quads = quads_of(pairs.tile[n]);
+            for (int i = 1; i < 4; ++i) pixels &= touched(quads, raised[pairs.slot[n]], pairs.here[n], i);
             pairs.pixels[n] = pixels;
             crossing[kept] = n;
             kept += pixels != 0 ? 1u : 0u;
@@ -182,28 +197,30 @@ struct CoverKernel {
         return kept;
     }
 
+    [[nodiscard]] static std::uint32_t touched(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4], int i) noexcept {
+        Lanes const zero = Lanes::all(T(0));
+            Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
+                        by_q = Lanes::all(planes.by_q[i]);
+            Lanes const c = fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i]))));
+            Lanes const x = fused(by_q, quads.q_x, across), y = fused(by_q, quads.q_y, upward);
+            return at_least((c + most(x, zero)) + most(y, zero), zero);
+    }
     // Gives the pixels that have no sample left.
     [[nodiscard]] static std::uint32_t darken(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4],
                                               std::uint32_t pixels, std::uint32_t* masks) noexcept {
-        Lanes const zero = Lanes::all(T(0));
         Lines const lines = lines_of(quads, planes, here);
-        std::uint32_t full = pixels;
         T stored[4][3][lane_count];
         for (int i = 0; i < 4; ++i) {
-            full &= at_least((lines.c[i] + least(lines.x[i], zero)) + least(lines.y[i], zero), zero);
             lines.c[i].store(stored[i][0]);
             lines.x[i].store(stored[i][1]);
             lines.y[i].store(stored[i][2]);
         }
-        std::uint32_t done = full;
-        for (std::uint32_t bits = full; bits != 0; bits &= bits - 1) masks[lowest_bit(bits)] = every_sample;
-        for (std::uint32_t bits = pixels & ~full; bits != 0; bits &= bits - 1) {
+        std::uint32_t done = 0;
+        for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
             int const k = lowest_bit(bits);
-            std::uint32_t dark = every_sample;
-            for (auto const& line : stored)
-                dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][k], line[1][k], line[2][k]});
-            dark |= masks[k];
-            masks[k] = dark;
+            PixelLine<T> lines_here[4];
+            for (int i = 0; i < 4; ++i) lines_here[i] = {stored[i][0][k], stored[i][1][k], stored[i][2][k]};
+            std::uint32_t const dark = masks[k] |= half_planes_mask<Lanes>(lines_here);
             done |= (dark == every_sample ? 1u : 0u) << k;
         }
         return done;

@@ -175,7 +175,7 @@ template <class T, class Lanes = BestLanes<T>>
         ++buffer.counts.tiles;
         least_w = least(least_w, chosen(seen.alive, seen.lo_w, huge));
         most_w = most(most_w, chosen(seen.alive, seen.hi_w, low));
-        kernel.insert(parts, tile, seen, seen.alive, tile_side);
+        kernel.insert(parts, tile, seen, seen.alive, tile_side, seen.bounds);
     }
     buffer.least_w = smallest(least_w);
     buffer.most_w = largest(most_w);

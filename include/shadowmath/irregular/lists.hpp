@@ -95,6 +95,10 @@ inline void for_each_list(IrregularBuffer<T> const& buffer, std::uint32_t const*
             auto const k = static_cast<int>(buffer.texel_division[texel]);
             PlaceRange const in = divisions_of(places, x, y, k);
             std::uint32_t const first = buffer.texel_lists[texel];
+            if (k == 0) {
+                list(first + 1);
+                continue;
+            }
             // More than four divisions: listed once, for all triangles of the texel.
             if (in.x1 - in.x0 > 1 || in.y1 - in.y0 > 1)
                 list(first);
@@ -112,7 +116,7 @@ template <class T>
     for (std::uint32_t texel = 0; texel < texels; ++texel) {
         std::uint32_t const nodes = buffer.texel_division[texel];
         std::uint32_t k = 0;
-        while (k < most_divisions && (std::uint32_t(16) << 2 * k) <= nodes) ++k;
+        while (k < most_divisions && (std::uint32_t(64) << 2 * k) <= nodes) ++k;
         buffer.texel_division[texel] = k;
         buffer.texel_lists[texel] = lists;
         lists += 1 + (1u << 2 * k);

@@ -62,6 +62,7 @@ struct PlainLanes {
     [[nodiscard]] static PlainLanes load(From const* from) noexcept {
         return each([from](int k) { return static_cast<T>(from[k]); });
     }
+    [[nodiscard]] static PlainLanes narrow(Wide const& wide) noexcept { return load(wide.lane); }
     void store(T* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
     }
@@ -135,6 +136,10 @@ struct PlainLanes {
     static void triples(T const* const (&row)[4], PlainLanes (&components)[3]) noexcept {
         for (int axis = 0; axis < 3; ++axis)
             components[axis] = each([&row, axis](int k) { return row[k / 4][3 * (k % 4) + axis]; });
+    }
+    // Lane k: the three numbers at at[k].
+    static void points(T const* const (&at)[lane_count], PlainLanes (&xyz)[3]) noexcept {
+        for (int axis = 0; axis < 3; ++axis) xyz[axis] = each([&at, axis](int k) { return at[k][axis]; });
     }
     // From 0 to 255, what is beyond them at the nearer end, without the fraction.
     void store_bytes(unsigned char* to) const noexcept {

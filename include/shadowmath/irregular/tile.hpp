@@ -37,6 +37,7 @@ struct TileKernel {
         std::uint32_t alive = 0;
         std::uint32_t away = 0;
         Lanes lo_x, hi_x, lo_y, hi_y, depth, lo_w, hi_w;
+        T bounds[5];  // of all that are alive: lo x, hi x, lo y, hi y, the far end of the depths
     };
 
     struct Surface {
@@ -56,8 +57,12 @@ struct TileKernel {
             at[j] = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(column);
         if (columns >= tile_side && normal_stride == 3 && (!placed || position_stride == 3)) {
+            // Written out: as a loop it is made a vector of addresses.
             auto const from = [&at](T const* array, std::size_t stride, T const*(&row_of)[tile_side]) {
-                for (int j = 0; j < tile_side; ++j) row_of[j] = array + at[j] * stride;
+                row_of[0] = array + at[0] * stride;
+                row_of[1] = array + at[1] * stride;
+                row_of[2] = array + at[2] * stride;
+                row_of[3] = array + at[3] * stride;
             };
             T const* row_of[tile_side];
             from(receivers.normal, 3, row_of);
@@ -207,7 +212,7 @@ struct TileKernel {
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
 
-    void keep_bounds(int tile, Seen const& seen) const noexcept {
+    void keep_bounds(int tile, Seen& seen) const noexcept {
         Lanes const zero = Lanes::all(T(0)), huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const keys[5] = {seen.lo_x, zero - seen.hi_x, seen.lo_y, zero - seen.hi_y, zero - seen.depth};
         T* const base = buffer.surface + tile_scalars * static_cast<std::size_t>(tile) + key_base_at;
@@ -217,6 +222,7 @@ struct TileKernel {
         for (int i = 0; i < 5; ++i) {
             base[i] = smallest(chosen(seen.alive, keys[i], huge));
             T const span = largest(chosen(seen.alive, keys[i], zero - huge)) - base[i];
+            seen.bounds[i] = i == 0 || i == 2 ? base[i] : -base[i];
             // No range to speak of: all are as the least of them.
             bool const ranged = span > std::abs(base[i]) * (T(1) / T(1 << 14)) && span > T(1e-30) && span < T(1e30);
             step[i] = ranged ? span / T(255) : T(0);
@@ -235,10 +241,16 @@ struct TileKernel {
         T const bounds[5] = {smallest(chosen(part, seen.lo_x, huge)), largest(chosen(part, seen.hi_x, low)),
                              smallest(chosen(part, seen.lo_y, huge)), largest(chosen(part, seen.hi_y, low)),
                              largest(chosen(part, seen.depth, low))};
+        insert(parts, tile, seen, part, pixels_across, bounds);
+    }
+
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across,
+                T const (&bounds)[5]) const noexcept {
         if (pixels_across > 1) {
             T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
             T const extent = width > height ? width : height;
             if (extent > T(1)) {
+                Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
                 Lanes const each = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
                 if (extent > largest(chosen(part, each, low)) * T(2 * pixels_across)) {
                     if (pixels_across == tile_side)

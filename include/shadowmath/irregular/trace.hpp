@@ -121,9 +121,9 @@ struct TraceKernel {
         if (begin == end) return;
         here.take(chunk.bounds, cell, far_end);
         if (here.bounds.count == 0) return;
-        for (std::uint32_t node = begin; node < end; ++node) {
-            std::uint32_t const found =
-                here.find(buffer.bounds + 5 * std::size_t{node}, cell, queue.slot + queue.slots);
+        T const* bounds = buffer.bounds + 5 * std::size_t{begin};
+        for (std::uint32_t node = begin; node < end; ++node, bounds += 5) {
+            std::uint32_t const found = here.find(bounds, cell, queue.next());
             if (found == 0) continue;
             cover.enqueue(buffer.tile[node], found, queue);
             if (queue.full()) cover.cover(chunk.raised, queue);

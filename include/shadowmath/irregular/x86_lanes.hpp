@@ -43,6 +43,13 @@ struct Avx512Doubles {
     [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
         return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
     }
+    // See PlainLanes: rows.
+    [[nodiscard]] static Avx512Doubles rows(double const* const (&row)[4]) noexcept {
+        auto const two = [](double const* low, double const* high) {
+            return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+        };
+        return {two(row[0], row[1]), two(row[2], row[3])};
+    }
     void store(double* to) const noexcept {
         _mm512_storeu_pd(to, first);
         _mm512_storeu_pd(to + 8, second);
@@ -130,9 +137,32 @@ struct Avx512Lanes {
         components[1] = {_mm512_shuffle_ps(y0, y1, _MM_SHUFFLE(2, 0, 2, 0))};
         components[2] = {_mm512_shuffle_ps(z, c, _MM_SHUFFLE(3, 0, 2, 0))};
     }
+    static void points(float const* const (&at)[lane_count], Avx512Lanes (&xyz)[3]) noexcept {
+        auto const four = [&at](int k) {
+            auto const three = [&at](int lane) {
+                __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(at[lane])));
+                return _mm_insert_ps(xy, _mm_load_ss(at[lane] + 2), 0x20);
+            };
+            __m256 const low = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k)), three(k + 4), 1);
+            __m256 const high = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k + 8)), three(k + 12), 1);
+            return _mm512_castpd_ps(
+                _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+        };
+        auto const pairs_low = [](__m512 a, __m512 b) { return _mm512_castps_pd(_mm512_unpacklo_ps(a, b)); };
+        auto const pairs_high = [](__m512 a, __m512 b) { return _mm512_castps_pd(_mm512_unpackhi_ps(a, b)); };
+        __m512 const a = four(0), b = four(1), c = four(2), d = four(3);
+        xyz[0] = {_mm512_castpd_ps(_mm512_unpacklo_pd(pairs_low(a, b), pairs_low(c, d)))};
+        xyz[1] = {_mm512_castpd_ps(_mm512_unpackhi_pd(pairs_low(a, b), pairs_low(c, d)))};
+        xyz[2] = {_mm512_castpd_ps(_mm512_unpacklo_pd(pairs_high(a, b), pairs_high(c, d)))};
+    }
     void store_bytes(unsigned char* to) const noexcept {
         __m512 const inside = _mm512_min_ps(_mm512_max_ps(lanes, _mm512_setzero_ps()), _mm512_set1_ps(255.0f));
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_cvtepi32_epi8(_mm512_cvttps_epi32(inside)));
+    }
+    [[nodiscard]] static Avx512Lanes narrow(Wide const& wide) noexcept {
+        __m256 const low = _mm512_cvtpd_ps(wide.first), high = _mm512_cvtpd_ps(wide.second);
+        return {_mm512_castpd_ps(
+            _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1))};
     }
     [[nodiscard]] static Avx512Lanes load_bytes(unsigned char const* from) noexcept {
         __m128i const bytes = _mm_loadu_si128(reinterpret_cast<__m128i const*>(from));
@@ -238,6 +268,22 @@ struct Avx2Lanes {
         halves(row[0], row[1], components[0].first, components[1].first, components[2].first);
         halves(row[2], row[3], components[0].second, components[1].second, components[2].second);
     }
+    static void points(float const* const (&at)[lane_count], Avx2Lanes (&xyz)[3]) noexcept {
+        auto const eight = [&at](int k, __m256& x, __m256& y, __m256& z) {
+            auto const two = [&at](int lane) {
+                __m128i const three = _mm_setr_epi32(-1, -1, -1, 0);
+                return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_maskload_ps(at[lane], three)),
+                                            _mm_maskload_ps(at[lane + 4], three), 1);
+            };
+            __m256 const a = two(k), b = two(k + 1), c = two(k + 2), d = two(k + 3);
+            __m256 const ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+            x = _mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(1, 0, 1, 0));
+            y = _mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(3, 2, 3, 2));
+            z = _mm256_shuffle_ps(_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d), _MM_SHUFFLE(1, 0, 1, 0));
+        };
+        eight(0, xyz[0].first, xyz[1].first, xyz[2].first);
+        eight(8, xyz[0].second, xyz[1].second, xyz[2].second);
+    }
     void store_bytes(unsigned char* to) const noexcept {
         auto const inside = [](__m256 eight) {
             return _mm256_cvttps_epi32(
@@ -247,6 +293,10 @@ struct Avx2Lanes {
         __m256i const ordered = _mm256_permute4x64_epi64(shorts, 0xd8);
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
                          _mm_packus_epi16(_mm256_castsi256_si128(ordered), _mm256_extracti128_si256(ordered, 1)));
+    }
+    [[nodiscard]] static Avx2Lanes narrow(Wide const& wide) noexcept {
+        auto const four = [&wide](int k) { return _mm256_cvtpd_ps(_mm256_loadu_pd(wide.lane + k)); };
+        return {_mm256_set_m128(four(4), four(0)), _mm256_set_m128(four(12), four(8))};
     }
     [[nodiscard]] static Avx2Lanes load_bytes(unsigned char const* from) noexcept {
         auto const eight = [](unsigned char const* bytes) {
