@@ -92,14 +92,15 @@ struct HalfPlaneTable {
     std::array<std::uint32_t, table_steps * table_steps> masks;
 };
 
+template <class T = double>
 [[nodiscard]] inline HalfPlaneTable half_plane_table() noexcept {
     HalfPlaneTable table{};
     double const step = 6.283185307179586 / table_steps, reach = 0.7071067811865476 / table_steps;
     for (int k = 0; k < table_steps; ++k)
         for (int j = 0; j < table_steps; ++j) {
             double const x = std::cos((k + 0.5) * step), y = std::sin((k + 0.5) * step);
-            PixelLine<double> const line{-(x + y) / 2.0 - (j + 0.5) * reach, x, y};
-            table.masks[static_cast<std::size_t>(k * table_steps + j)] = half_plane_mask<PlainLanes<double>>(line);
+            PixelLine<T> const line{-(x + y) / 2.0 - (j + 0.5) * reach, x, y};
+            table.masks[static_cast<std::size_t>(k * table_steps + j)] = half_plane_mask<PlainLanes<T>>(line);
         }
     return table;
 }
