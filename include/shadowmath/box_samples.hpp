@@ -32,34 +32,6 @@ inline constexpr int guess_rays_y = 12;
 template <class T>
 inline constexpr T leaning_surfaces = T(3);
 
-// Where a ray of the view is inside a box.
-template <class T>
-struct DepthSpan {
-    T first = T(0);  // eye depth
-    T last = T(-1);  // below first: it misses
-};
-
-// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
-template <class T>
-[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
-                                                Aabb<T> const& box) noexcept {
-    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
-    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
-    T first = T(0), last = T(1);  // of the way
-    for (int axis = 0; axis < 3; ++axis) {
-        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
-        if (std::abs(way[axis]) > T(0)) {
-            T const a = to_lo / way[axis], b = to_hi / way[axis];
-            first = std::fmax(first, std::fmin(a, b));
-            last = std::fmin(last, std::fmax(a, b));
-        } else if (to_lo > T(0) || to_hi < T(0)) {
-            return {};
-        }
-    }
-    T const range = view.z_far - view.z_near;
-    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
-}
-
 // Fills `into` with at most `capacity` weighted guesses and returns how many: two in each of the first four boxes that
 // a ray meets.
 template <class T>

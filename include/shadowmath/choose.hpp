@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Options found by measuring: how many maps, how large, split where, fitted how, so that the worst (or the mean)
-// footprint over what the eye sees is least, within a number of texels. For a settings menu, an editor, the loading of
+// footprint over what the eye sees is least, or the fewest pixels come out wrong, within a number of texels. For a settings menu, an editor, the loading of
 // a level, or again when the camera has gone somewhere else; not for every frame, since options that change make
 // shadows jump.
 //
@@ -27,7 +27,11 @@
 namespace shadowmath {
 inline namespace v0 {
 
-enum class Goal : std::uint8_t { least_worst, least_mean };
+enum class Goal : std::uint8_t {
+    least_worst,   // of the footprints: no place is much worse than the others
+    least_mean,    // of the footprints
+    fewest_wrong,  // of the pixels (price_of): the truest picture, and what choose_maps goes by
+};
 
 enum class Motion : std::uint8_t {
     still,    // no shimmer at all: stable fits
@@ -76,7 +80,11 @@ template <class T>
     if (most != limits.most_maps || limits.texels < 16 || limits.largest_map < 4) best.faults = Fault::clamped_option;
     T least = footprint_limit<T>;
     auto const value = [&limits](Judgement<T> const& judgement) {
-        return limits.goal == Goal::least_worst ? judgement.all.worst : judgement.all.mean;
+        switch (limits.goal) {
+            case Goal::least_mean: return judgement.all.mean;
+            case Goal::fewest_wrong: return judgement.all.price;
+            default: return judgement.all.worst;
+        }
     };
     auto const attempt = [&](CascadeOptions<T> const& options) {
         Cascades<T> const cascades = fit_cascades(view, light, casters, receivers, options);

@@ -114,7 +114,7 @@ int every_function() noexcept {
              &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
     count += keep(&slope<T>, &lean<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
                   &normal_offset_metres<T>, &normal_offset_at<T>, &bias_for<T>, &bias_at<T>);
-    count += keep(&by_footprint<T>, &choose_planes<T>);
+    count += keep(&by_footprint<T>, &with_map<T>, &look_up_in<T>, &choose_planes<T>);
     count += keep(&bounds_of<T>);
     count += keep(&least_squares_plane<T>, &median_plane<T>, &weighted_median_plane<T>, &plane_distortion<T>,
                   &choose_plane<T>, &worth_of<T>, &still_good<T>);
