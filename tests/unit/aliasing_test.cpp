@@ -81,6 +81,9 @@ TEST(Aliasing, OutsideItsRangeIsZero) {
     EXPECT_EQ(pixels_per_texel(1000.0, 0.0, 1000.0), 0.0);
     EXPECT_EQ(plane_map_area(1.0, 0.0, 1.0, 1.0, 1.0, 1.0), 0.0);
     EXPECT_EQ(plane_map_area(1.0, 1.0, 0.0, 1.0, 1.0, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 1.0, 1.0, 1.0, 0.0, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 1.0, 1.0, 1.0, nan, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, -1.0, 1.0, 1.0, 1.0, 2.0), 8.0) << "an area has no sign";
 }
 
 // One bad argument at a time, at every place.

@@ -118,6 +118,9 @@ TEST(Margin, NamesWhatIsWrongWithIt) {
     EXPECT_EQ(usable_texels(100, -10.0), 100.0);
     EXPECT_EQ(usable_texels(100, 1e300), 1.0);
     EXPECT_EQ(usable_texels(-5, 0.0), 1.0);
+    EXPECT_EQ(usable_texels(10, 4.75), 1.0) << "half a texel is one";
+    EXPECT_EQ(faults_of_margin(3, 0.5), Faults(Fault::map_too_small));
+    EXPECT_FALSE(faults_of_margin(4, 0.5).any());
 }
 
 // Not but for a rounding: with no margin at all each corner is inside, a kilometre out and told in long double.

@@ -34,6 +34,14 @@ TEST(MapsDue, IncludeWhatHasChangedAndNothingBeyondTheCount) {
     EXPECT_NE(maps_due(0, 32), 0u);
 }
 
+TEST(MapsDue, OfThirtyTwoMapsAreAmongThem) {
+    EXPECT_EQ(maps_due(0, 32) & 1u, 1u);
+    EXPECT_EQ(maps_due(0, 32, ~0u), ~0u);
+    EXPECT_EQ(maps_due(0, 31, ~0u), 0x7fffffffu);
+    EXPECT_EQ(maps_due(0, 0, ~0u), 0u);
+    EXPECT_EQ(maps_due(0, -1, ~0u), 0u);
+}
+
 TEST(FramesBetween, AreOneForTheFirstMapAndForOneAlone) {
     EXPECT_EQ(frames_between(0, 4), 1);
     EXPECT_EQ(frames_between(-1, 4), 1);

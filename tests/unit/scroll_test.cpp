@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 using namespace shadowmath;
 
 namespace {
@@ -104,4 +106,14 @@ TEST(TexelRects, HoldNoMoreThanTheyHaveRoomFor) {
     rects.add({0, 0, 0, 5});
     EXPECT_EQ(rects.count, 2);
     EXPECT_EQ(rects.at[1].x, 1);
+}
+
+TEST(Scroll, ByItsWholeSizeKeepsNothing) {
+    TexelGrid<double> const before = window_at(0.0, 0.0);
+    for (auto const& [x, y] : {std::pair(8.0, 0.0), std::pair(-8.0, 0.0), std::pair(0.0, 8.0), std::pair(0.0, -8.0)}) {
+        Scroll const scroll = scroll_between(before, window_at(x, y));
+        EXPECT_FALSE(scroll.kept);
+        ASSERT_EQ(scroll.fresh.count, 1);
+        EXPECT_EQ(scroll.fresh.at[0].width * scroll.fresh.at[0].height, 256);
+    }
 }
