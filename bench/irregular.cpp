@@ -167,7 +167,7 @@ double share_dark(std::vector<std::uint32_t> const& masks, Picture const& pictur
 struct Request {
     std::vector<std::uint32_t> sizes;
     std::string scene, grid = "warp";
-    int grid_size = 96;
+    int grid_size = 64;
     int rounds = 3;
     bool embree = true;
 };
