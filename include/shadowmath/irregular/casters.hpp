@@ -96,16 +96,21 @@ struct CasterKernel {
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
         T const* at[3][lane_count];
+        auto const stride = static_cast<std::size_t>(casters.stride);
         batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
-            std::size_t const triangle = !ok ? 0 : order != nullptr ? order[begin + k] : begin + k;
-            for (std::uint32_t i = 0; i < 3; ++i) {
-                std::size_t vertex = 3 * triangle + i;
-                if (casters.index != nullptr) vertex = casters.index[vertex];
-                bool const held = vertex < casters.vertex_count;
-                ok = ok && held;
-                at[i][k] = casters.position + (held ? vertex * static_cast<std::size_t>(casters.stride) : 0);
+            std::size_t const first = std::size_t{3} * (!ok ? 0u : order != nullptr ? order[begin + k] : begin + k);
+            if (casters.index == nullptr) {
+                ok = ok && first + 2 < casters.vertex_count;
+                for (std::uint32_t i = 0; i < 3; ++i) at[i][k] = casters.position + (ok ? first + i : 0) * stride;
+            } else {
+                for (std::uint32_t i = 0; i < 3; ++i) {
+                    std::size_t const vertex = casters.index[first + i];
+                    bool const held = vertex < casters.vertex_count;
+                    ok = ok && held;
+                    at[i][k] = casters.position + (held ? vertex : 0) * stride;
+                }
             }
             batch.sound |= (ok ? 1u : 0u) << k;
         }
