@@ -102,6 +102,7 @@ struct IrregularBuffer {
 
     // Texels of the finest level.
     T* texel_depth = nullptr;                 // far end over the nodes that touch it
+    T* block_depth = nullptr;                 // the same over 2 x 2 texels, of which this is the first
     std::uint32_t* texel_levels = nullptr;    // bit l: level l has a node here
     std::uint32_t* texel_lists = nullptr;     // place in `first`: nodes too wide for its divisions, then the divisions
     std::uint32_t* texel_division = nullptr;  // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
@@ -153,7 +154,7 @@ inline constexpr std::size_t line_slack = cache_line / 4 - 1;
     }
     // Every four nodes that touch a texel pay for a division. As many triangles as pixels are put in order at once.
     std::size_t const nodes = 4 * parts, lists = 2 * texels + coarser + parts + 2;
-    return {tile_scalars * tiles + 5 * nodes + 5 * parts + texels + line_slack,
+    return {tile_scalars * tiles + 5 * nodes + 5 * parts + 2 * texels + line_slack,
             tile_words * tiles + nodes + 3 * parts + 2 * lists + 3 * texels + 3 * lane_count * tiles + line_slack};
 }
 
@@ -208,6 +209,7 @@ template <class T>
     buffer.surface = take(scalars, tile_scalars * tiles);
     buffer.bounds = take(scalars, 5 * nodes);
     buffer.texel_depth = take(scalars, texels);
+    buffer.block_depth = take(scalars, texels);
     parts.bounds = scalars;
     buffer.state = take(words, tile_words * tiles);
     for (std::uint32_t** array : {&buffer.caster, &buffer.caster_list, &buffer.caster_order})

@@ -95,24 +95,39 @@ struct CasterKernel {
 
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
+        auto const stride = static_cast<std::size_t>(casters.stride);
+        auto const keep = [&batch](int i, auto const& at) {
+            Lanes xyz[3];
+            Lanes::points(at, xyz);
+            for (int axis = 0; axis < 3; ++axis) xyz[axis].store(batch.vertex[i][axis]);
+        };
+        std::uint32_t sound = 0;
         T const* at[3][lane_count];
-        batch.sound = 0;
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
-            std::size_t const triangle = !ok ? 0 : order != nullptr ? order[begin + k] : begin + k;
-            for (std::uint32_t i = 0; i < 3; ++i) {
-                std::size_t vertex = 3 * triangle + i;
-                if (casters.index != nullptr) vertex = casters.index[vertex];
-                bool const held = vertex < casters.vertex_count;
-                ok = ok && held;
-                at[i][k] = casters.position + (held ? vertex * static_cast<std::size_t>(casters.stride) : 0);
+            std::size_t const first = std::size_t{3} * (!ok ? 0u : order != nullptr ? order[begin + k] : begin + k);
+            if (casters.index == nullptr) {
+                ok = ok && first + 2 < casters.vertex_count;
+                at[0][k] = casters.position + (ok ? first * stride : 0);
+            } else {
+                for (std::uint32_t i = 0; i < 3; ++i) {
+                    std::size_t const vertex = casters.index[first + i];
+                    bool const held = vertex < casters.vertex_count;
+                    ok = ok && held;
+                    at[i][k] = casters.position + (held ? vertex * stride : 0);
+                }
             }
-            batch.sound |= (ok ? 1u : 0u) << k;
+            sound |= (ok ? 1u : 0u) << k;
         }
+        batch.sound = sound;
         for (int i = 0; i < 3; ++i) {
-            Lanes xyz[3];
-            Lanes::points(at[i], xyz);
-            for (int axis = 0; axis < 3; ++axis) xyz[axis].store(batch.vertex[i][axis]);
+            if (casters.index != nullptr)
+                keep(i, [&](int k) { return at[i][k]; });
+            else
+                // Fewer than three vertices in all: the first, three times.
+                keep(i, [&at, step = casters.vertex_count < 3 ? 0 : static_cast<std::size_t>(i) * stride](int k) {
+                    return at[0][k] + step;
+                });
         }
         find(batch);
     }

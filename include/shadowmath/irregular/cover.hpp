@@ -64,9 +64,9 @@ struct CoverKernel {
         Lanes q, q_x, q_y, column, row;
     };
 
-    // Each plane as a line across each pixel.
+    // A plane as a line across each pixel: inside where c + x u + y v >= 0.
     struct Lines {
-        Lanes c[4], x[4], y[4];
+        Lanes c, x, y;
     };
 
     // Takes the next `count` slots of the queue for a tile.
@@ -160,36 +160,39 @@ struct CoverKernel {
         }
     }
 
-    [[nodiscard]] static Lines lines_of(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4]) noexcept {
-        Lines lines;
-        for (int i = 0; i < 4; ++i) {
-            Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
-                        by_q = Lanes::all(planes.by_q[i]);
-            lines.c[i] = fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i]))));
-            lines.x[i] = fused(by_q, quads.q_x, across);
-            lines.y[i] = fused(by_q, quads.q_y, upward);
-        }
-        return lines;
+    [[nodiscard]] static Lines lines_of(Quads const& quads, RaisedTriangle<T> const& planes, int i,
+                                        T const (&here)[4]) noexcept {
+        Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
+                    by_q = Lanes::all(planes.by_q[i]);
+        return {fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i])))),
+                fused(by_q, quads.q_x, across), fused(by_q, quads.q_y, upward)};
     }
 
-    // Leaves the pixels of which a sample may be within all four planes, in the order of half_plane_mask: rounding is
-    // monotone. Gives the pairs that have some.
+    // Pixels of which a sample may be inside, in the order of half_plane_mask: rounding is monotone.
+    [[nodiscard]] static std::uint32_t touched(Lines const& lines) noexcept {
+        Lanes const zero = Lanes::all(T(0));
+        return at_least((lines.c + most(lines.x, zero)) + most(lines.y, zero), zero);
+    }
+
+    // Leaves the pixels of which a sample may be within all four planes, and gives the pairs that have some. The
+    // triangle's own plane comes first: half of what it does not shadow lies before it.
     [[nodiscard]] std::uint32_t cross(RaisedTriangle<T> const* raised, Pairs& pairs,
                                       std::uint32_t* crossing) const noexcept {
-        Lanes const zero = Lanes::all(T(0));
-        std::uint32_t kept = 0;
         std::uint32_t behind = 0;
         for (std::uint32_t n = 0; n < pairs.count; ++n) {
-            std::uint32_t const pixels = pairs.pixels[n] & touched(quads_of(pairs.tile[n]), raised[pairs.slot[n]], pairs.here[n], 0);
+            std::uint32_t const pixels =
+                pairs.pixels[n] &
+                touched(lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], 0, pairs.here[n]));
             pairs.pixels[n] = pixels;
             crossing[behind] = n;
             behind += pixels != 0 ? 1u : 0u;
         }
+        std::uint32_t kept = 0;
         for (std::uint32_t m = 0; m < behind; ++m) {
             std::uint32_t const n = crossing[m];
-            std::uint32_t pixels = pairs.pixels[n];
             Quads const quads = quads_of(pairs.tile[n]);
-            for (int i = 1; i < 4; ++i) pixels &= touched(quads, raised[pairs.slot[n]], pairs.here[n], i);
+            std::uint32_t pixels = pairs.pixels[n];
+            for (int i = 1; i < 4; ++i) pixels &= touched(lines_of(quads, raised[pairs.slot[n]], i, pairs.here[n]));
             pairs.pixels[n] = pixels;
             crossing[kept] = n;
             kept += pixels != 0 ? 1u : 0u;
@@ -197,23 +200,15 @@ struct CoverKernel {
         return kept;
     }
 
-    [[nodiscard]] static std::uint32_t touched(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4], int i) noexcept {
-        Lanes const zero = Lanes::all(T(0));
-            Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
-                        by_q = Lanes::all(planes.by_q[i]);
-            Lanes const c = fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i]))));
-            Lanes const x = fused(by_q, quads.q_x, across), y = fused(by_q, quads.q_y, upward);
-            return at_least((c + most(x, zero)) + most(y, zero), zero);
-    }
     // Gives the pixels that have no sample left.
     [[nodiscard]] static std::uint32_t darken(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4],
                                               std::uint32_t pixels, std::uint32_t* masks) noexcept {
-        Lines const lines = lines_of(quads, planes, here);
         T stored[4][3][lane_count];
         for (int i = 0; i < 4; ++i) {
-            lines.c[i].store(stored[i][0]);
-            lines.x[i].store(stored[i][1]);
-            lines.y[i].store(stored[i][2]);
+            Lines const lines = lines_of(quads, planes, i, here);
+            lines.c.store(stored[i][0]);
+            lines.x.store(stored[i][1]);
+            lines.y.store(stored[i][2]);
         }
         std::uint32_t done = 0;
         for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {

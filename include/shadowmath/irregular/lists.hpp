@@ -129,6 +129,19 @@ template <class T>
     return lists;
 }
 
+template <class T>
+inline void find_block_depths(IrregularBuffer<T>& buffer) noexcept {
+    int const size = buffer.map_size;
+    auto const deeper = [](T a, T b) { return a > b ? a : b; };
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            T const* const row = buffer.texel_depth + y * size;
+            T const* const next = y + 1 < size ? row + size : row;
+            int const right = x + 1 < size ? x + 1 : x;
+            buffer.block_depth[y * size + x] = deeper(deeper(row[x], row[right]), deeper(next[x], next[right]));
+        }
+}
+
 // False where the nodes are more than four for each part that there is room for.
 template <class T>
 [[nodiscard]] inline bool sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts) noexcept {
@@ -145,6 +158,7 @@ template <class T>
         end[list] = counts.nodes += length;
     }
     if (counts.nodes > 4 * parts.capacity) return false;
+    find_block_depths(buffer);
     for (std::uint32_t i = 0; i < counts.parts; ++i) {
         T const* const bounds = parts.bounds + 5 * i;
         std::uint32_t const tile = parts.place[3 * i] & 0x0fffffffu;

@@ -137,9 +137,10 @@ struct PlainLanes {
         for (int axis = 0; axis < 3; ++axis)
             components[axis] = each([&row, axis](int k) { return row[k / 4][3 * (k % 4) + axis]; });
     }
-    // Lane k: the three numbers at at[k].
-    static void points(T const* const (&at)[lane_count], PlainLanes (&xyz)[3]) noexcept {
-        for (int axis = 0; axis < 3; ++axis) xyz[axis] = each([&at, axis](int k) { return at[k][axis]; });
+    // Lane k: the three numbers at at(k).
+    template <class At>
+    static void points(At const& at, PlainLanes (&xyz)[3]) noexcept {
+        for (int axis = 0; axis < 3; ++axis) xyz[axis] = each([&at, axis](int k) { return at(k)[axis]; });
     }
     // From 0 to 255, what is beyond them at the nearer end, without the fraction.
     void store_bytes(unsigned char* to) const noexcept {

@@ -51,59 +51,54 @@ struct TraceKernel {
     using Chunk = CasterChunk<Lanes>;
     using Queue = typename CoverKernel<Lanes>::Queue;
 
-    // Whether a node there may be touched.
-    [[nodiscard]] bool meets(PlaceRange const& texels, T depth) const noexcept {
-        if (texels.x1 - texels.x0 > 3 || texels.y1 - texels.y0 > 3) return true;
-        bool met = false;
-        for (int y = texels.y0; y <= texels.y1; ++y)
-            for (int x = texels.x0; x <= texels.x1; ++x) met |= buffer.texel_depth[y * buffer.map_size + x] >= depth;
-        return met;
-    }
-
     // The list that a triangle begins in, of those whose cells are no narrower than it.
-    [[nodiscard]] std::uint32_t list_of(PlaceRange const& places) const noexcept {
+    [[nodiscard]] std::uint32_t list_of(PlaceRange const& places, int extent) const noexcept {
         PlaceRange const texels = texels_of(places, 0);
-        int const width = places.x1 - places.x0, height = places.y1 - places.y0;
-        int const extent = width > height ? width : height;
-        int level = 0;
-        while (level + 1 < buffer.level_count && extent > 1 << (most_divisions + level_shift * level)) ++level;
-        if (level > 0) {
+        if (extent > 1 << most_divisions) {
+            int level = 1;
+            while (level + 1 < buffer.level_count && extent > 1 << (most_divisions + level_shift * level)) ++level;
             PlaceRange const at = coarser(texels, level_shift * level);
-            return buffer.level_first[level] +
-                   static_cast<std::uint32_t>(at.y0 * level_size(buffer.map_size, level) + at.x0);
+            if (level < buffer.level_count)
+                return buffer.level_first[level] +
+                       static_cast<std::uint32_t>(at.y0 * level_size(buffer.map_size, level) + at.x0);
         }
         int const texel = texels.y0 * buffer.map_size + texels.x0;
-        auto const division = static_cast<int>(buffer.texel_division[texel]);
-        std::uint32_t const lists = buffer.texel_lists[texel];
-        if (extent > 1 << (most_divisions - division)) return lists;
-        PlaceRange const in = divisions_of(places, texels.x0, texels.y0, division);
-        return lists + 1 + static_cast<std::uint32_t>((in.y0 << division) + in.x0);
+        auto const k = static_cast<int>(buffer.texel_division[texel]);
+        int const first = 1 << most_divisions, shift = most_divisions - k;
+        int const in_x = (places.x0 & (first - 1)) >> shift, in_y = (places.y0 & (first - 1)) >> shift;
+        return buffer.texel_lists[texel] +
+               (extent > 1 << shift ? 0u : 1u + static_cast<std::uint32_t>((in_y << k) + in_x));
     }
 
     // Keeps the triangles that may touch a node, from `begin` on, until there is no room for more. Gives how many were
     // looked at, and how many kept.
     [[nodiscard]] std::uint32_t keep(std::uint32_t begin, std::uint32_t count, Batch& batch,
                                      std::uint32_t& kept) const noexcept {
-        kept = 0;
         std::uint32_t places[4][lane_count];
-        T const scale = T(1 << most_divisions);
         Lanes const zero = Lanes::all(T(0)), last = Lanes::all(T((buffer.map_size << most_divisions) - 1));
-        std::uint32_t done = 0;
-        for (; done < count && kept + lane_count <= buffer.caster_room; done += lane_count) {
+        Lanes const scale = Lanes::all(T(1 << most_divisions));
+        std::uint32_t done = 0, held = 0;
+        for (; done < count && held + lane_count <= buffer.caster_room; done += lane_count) {
             kernel.load(begin + done, count - done, nullptr, batch);
             for (int i = 0; i < 4; ++i)
-                least(most(Lanes::load(batch.bounds[i]) * Lanes::all(scale), zero), last).store_words(places[i]);
+                least(most(Lanes::load(batch.bounds[i]) * scale, zero), last).store_words(places[i]);
             for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
                 int const k = lowest_bit(bits);
                 PlaceRange const at{static_cast<int>(places[0][k]), static_cast<int>(places[1][k]),
                                     static_cast<int>(places[2][k]), static_cast<int>(places[3][k])};
-                if (!meets(texels_of(at, 0), batch.depth[k])) continue;
-                std::uint32_t const list = list_of(at);
-                buffer.caster[kept] = begin + done + static_cast<std::uint32_t>(k);
-                buffer.caster_list[kept++] = list;
-                ++buffer.caster_end[list + 1];
+                int const width = at.x1 - at.x0, height = at.y1 - at.y0, extent = width > height ? width : height;
+                PlaceRange const texels = texels_of(at, 0);
+                std::uint32_t const list = list_of(at, extent);
+                bool const in_block = extent <= 1 << most_divisions;
+                T const far_end = buffer.block_depth[texels.y0 * buffer.map_size + texels.x0];
+                std::uint32_t const met = !in_block || far_end >= batch.depth[k] ? 1u : 0u;
+                buffer.caster[held] = begin + done + static_cast<std::uint32_t>(k);
+                buffer.caster_list[held] = list;
+                buffer.caster_end[list + 1] += met;
+                held += met;
             }
         }
+        kept = held;
         return done < count ? done : count;
     }
 

@@ -137,11 +137,13 @@ struct Avx512Lanes {
         components[1] = {_mm512_shuffle_ps(y0, y1, _MM_SHUFFLE(2, 0, 2, 0))};
         components[2] = {_mm512_shuffle_ps(z, c, _MM_SHUFFLE(3, 0, 2, 0))};
     }
-    static void points(float const* const (&at)[lane_count], Avx512Lanes (&xyz)[3]) noexcept {
+    template <class At>
+    static void points(At const& at, Avx512Lanes (&xyz)[3]) noexcept {
         auto const four = [&at](int k) {
             auto const three = [&at](int lane) {
-                __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(at[lane])));
-                return _mm_insert_ps(xy, _mm_load_ss(at[lane] + 2), 0x20);
+                float const* const from = at(lane);
+                __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(from)));
+                return _mm_insert_ps(xy, _mm_load_ss(from + 2), 0x20);
             };
             __m256 const low = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k)), three(k + 4), 1);
             __m256 const high = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k + 8)), three(k + 12), 1);
@@ -268,12 +270,15 @@ struct Avx2Lanes {
         halves(row[0], row[1], components[0].first, components[1].first, components[2].first);
         halves(row[2], row[3], components[0].second, components[1].second, components[2].second);
     }
-    static void points(float const* const (&at)[lane_count], Avx2Lanes (&xyz)[3]) noexcept {
+    template <class At>
+    static void points(At const& at, Avx2Lanes (&xyz)[3]) noexcept {
         auto const eight = [&at](int k, __m256& x, __m256& y, __m256& z) {
             auto const two = [&at](int lane) {
-                __m128i const three = _mm_setr_epi32(-1, -1, -1, 0);
-                return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_maskload_ps(at[lane], three)),
-                                            _mm_maskload_ps(at[lane + 4], three), 1);
+                auto const three = [](float const* from) {
+                    __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(from)));
+                    return _mm_insert_ps(xy, _mm_load_ss(from + 2), 0x20);
+                };
+                return _mm256_set_m128(three(at(lane + 4)), three(at(lane)));
             };
             __m256 const a = two(k), b = two(k + 1), c = two(k + 2), d = two(k + 3);
             __m256 const ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
