@@ -110,8 +110,9 @@ Fitted chosen_options(Input const& in, SurfacePoint<double> const* samples, int 
     return with(fit_cascades(in.seen, in.light, in.casters, in.receivers, options));
 }
 
-Fitted options_from_bounds(Input const& in) {
-    Samples<double> const samples = samples_in(in.seen, in.light, in.receivers);
+Fitted options_from_boxes(Input const& in) {
+    Samples<double> const samples =
+        samples_in_boxes(in.seen, in.light, in.receiver_boxes.data(), int(in.receiver_boxes.size()));
     return chosen_options(in, samples.at.data(), samples.count);
 }
 
@@ -236,7 +237,7 @@ std::vector<Entry> const& entries() {
         {{"plane", "plane (VDSM), focus behind it", Family::library, false, true}, plane_first},
         {{"sdsm", "samples, splits around gaps", Family::library, false, true},
          [](Input const& in) { return sampled(in, SampleSplits::adaptive); }},
-        {{"options", "options chosen from bounds", Family::library}, options_from_bounds},
+        {{"options", "options chosen from boxes", Family::library}, options_from_boxes},
         {{"options-depth", "options chosen from a depth buffer", Family::library, false, true}, options_from_depth},
         {{"chosen-boxes", "maps chosen from boxes alone", Family::chosen}, chosen_from_boxes},
         {{"chosen-depth", "maps chosen from a depth buffer", Family::chosen, false, true}, chosen_from_depth},

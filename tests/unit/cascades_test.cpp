@@ -128,6 +128,25 @@ TYPED_TEST(CascadesOf, WarpedSlicesAreWarpedMaps) {
     for (auto const& c : this->fitted()) EXPECT_EQ(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
 }
 
+TYPED_TEST(CascadesOf, EachMapHasItsShareOfTheWarp) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::warped;
+    auto const warped = this->fitted();
+    this->options.warp_less[1] = T(1);
+    this->options.warp_less[2] = T(0.5);
+    auto const mixed = this->fitted();
+    auto const growth = [](Cascade<T> const& c) { return glm::length(Vec3<T>(row(c.map.clip_from_world, 3))); };
+    for (int i : {0, 3}) EXPECT_EQ(mixed.at[i].map.clip_from_world, warped.at[i].map.clip_from_world) << i;
+    EXPECT_EQ(growth(mixed.at[1]), T(0));
+    EXPECT_GT(growth(mixed.at[2]), T(0));
+    EXPECT_LT(growth(mixed.at[2]), growth(warped.at[2]));
+    this->options.warp_less[1] = std::numeric_limits<T>::quiet_NaN();
+    auto const broken = this->fitted();
+    EXPECT_FALSE(broken.at[1].map.visible);
+    EXPECT_TRUE(broken.faults.has(Fault::not_finite));
+    EXPECT_TRUE(broken.at[2].map.visible);
+}
+
 TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {
     this->options.fit = CascadeFit::focus;
     auto const whole = this->fitted();
