@@ -34,6 +34,7 @@ constexpr Goal goals[] = {
     {"slice_spheres", "bound", 1 / 1.3, 1 / 1.3},
     {"slice_focus", "polygons", 90, 23},
     {"many_views/10000", "textbook", 55, 55},
+    {"warped_cascades", "ogre", 150, 150},
     {"caster_masks/10000", "textbook", 12, 10},
     {"caster_masks/1000000", "textbook", 12, 10},
     {"caster_masks/4194304", "read", 0.85, 0},
