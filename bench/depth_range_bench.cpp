@@ -14,8 +14,8 @@ static int const registered = [] {
     bench::Random random;
     Aabb<float> const town{glm::vec3(-120, 0, -120), glm::vec3(120, 30, 120)};
     LightBasis<float> const basis = light_basis(bench::sun);
-    auto const boxes = bench::inputs(
-        [&] { return fit_box(basis, corners(bench::view_of(bench::some_camera(random))), 2048, 2.0f); });
+    auto const boxes =
+        bench::inputs([&] { return fit_box(basis, corners(bench::view_of(bench::some_camera(random))), 2048, 2.0f); });
     bench::time("depth_range/ours", boxes, [town](LightBox<float> const& sides) {
         return depth_range(sides, {sides.depth_lo, sides.depth_hi, true}, town, town, false);
     });
