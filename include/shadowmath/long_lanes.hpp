@@ -34,11 +34,19 @@ struct LongFloats {
         return {Register{a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}};
     }
 #else
-    [[nodiscard]] static LongFloats all(float a) noexcept { return {Register{a, a, a, a, a, a, a, a}}; }
+    [[nodiscard]] static LongFloats all(float a) noexcept {
+        return {Register{a, a, a, a, a, a, a, a}};
+    }
 #endif
-    friend LongFloats operator+(LongFloats const& a, LongFloats const& b) noexcept { return {a.at + b.at}; }
-    friend LongFloats operator-(LongFloats const& a, LongFloats const& b) noexcept { return {a.at - b.at}; }
-    friend LongFloats operator*(LongFloats const& a, LongFloats const& b) noexcept { return {a.at * b.at}; }
+    friend LongFloats operator+(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at + b.at};
+    }
+    friend LongFloats operator-(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at - b.at};
+    }
+    friend LongFloats operator*(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at * b.at};
+    }
     friend LongFloats least(LongFloats const& a, LongFloats const& b) noexcept {
         return {a.at < b.at ? a.at : b.at};
     }

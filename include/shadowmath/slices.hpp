@@ -43,7 +43,7 @@ struct ViewInLight {
     Lanes<T> slope_hi;
     Lanes<T> eye, forward, right, up;  // the view's pose
     T sides;                           // how far they are from the middle, all together
-    T rounding_slope;  // by which the rounding of a coordinate grows with depth
+    T rounding_slope;                  // by which the rounding of a coordinate grows with depth
 };
 
 template <class T>
