@@ -138,6 +138,15 @@ TEST(CasterMask, TakesMapsThatLookDifferentWays) {
     EXPECT_EQ(caster_mask(all, cube(V3(8.75, 5, 0))), 0xff00);
 }
 
+#if defined(NDEBUG)
+TEST(CasterMaps, HoldNoMoreThanAMaskHasBits) {
+    CasterMaps<double> maps;
+    for (int i = 0; i < max_caster_maps + 3; ++i) add_map(maps, square(1));
+    EXPECT_EQ(maps.map_count, max_caster_maps);
+    EXPECT_EQ(caster_mask(maps, cube(V3(0, 5, 0))), 0xffff);
+}
+#endif
+
 TEST(CasterMaps, OfCascadesShareTheirNormals) {
     ViewVolume<float> const view = perspective_view(
         pose_looking(glm::vec3(3, 2, 1), glm::vec3(1, -0.2f, -1), glm::vec3(0, 1, 0)), 1.0f, 1.5f, 0.1f, 200.0f);

@@ -96,6 +96,24 @@ TYPED_TEST(DepthRangeOf, AVolumeInsideTheBoxHasItsOwnDepths) {
     EXPECT_TRUE(this->close(range.hi, 20));
 }
 
+// No corner of either is inside the other but those far behind: what counts is where the view's edges pierce the face.
+TYPED_TEST(DepthRangeOf, AFacePiercedInItsMiddleIsTheNearestWhicheverAxisItIsOf) {
+    using T = TypeParam;
+    Aabb<T> const room{Vec3<T>(-30), Vec3<T>(30)};
+    for (int axis = 0; axis < 3; ++axis)
+        for (T const side : {T(-1), T(1)}) {
+            Vec3<T> eye(1, 2, 3), forward(0), up(0);
+            eye[axis] = T(-50) * side;
+            forward[axis] = side;
+            up[(axis + 1) % 3] = T(1);
+            auto const view = perspective_view(pose_looking(eye, forward, up), T(0.1), T(1), T(1), T(60));
+            auto const range = depths_inside(room, view);
+            ASSERT_TRUE(range.visible);
+            EXPECT_TRUE(this->close(range.lo, 20)) << axis << ' ' << double(side) << ' ' << double(range.lo);
+            EXPECT_TRUE(this->close(range.hi, 60));
+        }
+}
+
 TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
     using T = TypeParam;
     T const nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();

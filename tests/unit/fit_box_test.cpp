@@ -105,6 +105,9 @@ TYPED_TEST(FitBox, BoundsBeyondReachHaveTheBoxOfNothing) {
         EXPECT_TRUE(box.lo == nothing.lo && box.hi == nothing.hi && box.depth_lo == nothing.depth_lo);
     }
     EXPECT_EQ(box_around(LightBasis<T>{}, Aabb<T>{}, 100, T(2)).hi, nothing.hi);
+    LightBasis<T> bent;
+    bent.y *= T(2);
+    EXPECT_EQ(box_around(bent, Aabb<T>{Vec3<T>(T(-9)), Vec3<T>(T(9))}, 100, T(2)).hi, nothing.hi);
 }
 
 TEST(Margin, NamesWhatIsWrongWithIt) {

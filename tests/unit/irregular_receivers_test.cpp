@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 using namespace shadowmath;
@@ -144,4 +145,31 @@ TEST_F(ReceiversInMemory, WithFaultsAShaderKeepsWhatItHad) {
     EXPECT_TRUE(faults(pixel_frame(perspective, 0, 4), sun, grid, 32).has(Fault::map_too_small));
     EXPECT_TRUE(faults(pixel_frame(perspective, 4, 0), sun, grid, 32).has(Fault::map_too_small));
     EXPECT_TRUE(faults(frame, directional(V(0.0f)), grid, 32).any());
+}
+
+TEST_F(ReceiversInMemory, OfAPartThatIsNotInThePictureNothingIsListed) {
+    PlanePicture<float> const floor = picture_of_plane(perspective, width, height, V(0), V(0, 1, 0));
+    Receivers<float> seen;
+    seen.depth = floor.depth.data();
+    seen.normal = floor.normals.data();
+    StorageSize const size = storage_for(width, height, map_size);
+    std::vector<float> scalars(size.scalars);
+    std::vector<std::uint32_t> words(size.words);
+    Storage<float> const storage{scalars.data(), words.data(), size};
+    auto const faults = [&](PixelRect const& rect, ShadowMap<float> const& map, Storage<float> const& in) {
+        return list_receivers(floor.frame, seen, sun, map, map_size, in, rect).faults;
+    };
+    EXPECT_FALSE(faults({2, 3, 8, 9}, grid, storage).any());
+    for (PixelRect const& rect :
+         {PixelRect{-1, 0, 4, 4}, PixelRect{0, -1, 4, 4}, PixelRect{width, 0, 0, 4}, PixelRect{0, height, 4, 0},
+          PixelRect{width - 3, 0, 4, 4}, PixelRect{0, height - 3, 4, 4}})
+        EXPECT_EQ(faults(rect, grid, storage), Faults(Fault::bad_region)) << rect.x << ' ' << rect.y;
+    ShadowMap<float> bad = grid;
+    bad.w_min = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(faults({}, bad, storage), Faults(Fault::bad_projection));
+    EXPECT_EQ(faults({}, grid, {nullptr, words.data(), size}), Faults(Fault::storage_too_small));
+    EXPECT_EQ(faults({}, grid, {scalars.data(), nullptr, size}), Faults(Fault::storage_too_small));
+    for (StorageSize const& none :
+         {storage_for(0, 4, 8), storage_for(4, 0, 8), storage_for(4, 4, 0), storage_for(4, 4, largest_grid + 1)})
+        EXPECT_TRUE(none.scalars == 0 && none.words == 0);
 }

@@ -217,6 +217,7 @@ TEST(LightSamples, ASamplerOfBadInputIsUnusableAndSoAreItsSamples) {
     samplers.push_back(light_sampler(view, directional(V3(no_number)), picture, cells));
     samplers.push_back(light_sampler(view, spot(V3(0, 9, 0), V3(0, -1, 0), 0.5, 30.0), picture, cells));
     samplers.push_back(light_sampler(view, morning, V2(std::numeric_limits<double>::max(), 1080), V2(1e-300, 27)));
+    samplers.push_back(light_sampler(view, morning, picture, V2(1e-308, 27)));
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         EXPECT_FALSE(samplers[i].usable) << i;
         EXPECT_TRUE(is_unusable(light_sample(samplers[i], surface))) << i;

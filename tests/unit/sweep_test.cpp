@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <limits>
 
 using namespace shadowmath;
@@ -102,4 +104,24 @@ TEST(Sweep, OfABodyThatHasRunOutOfFacesIsTooLargeAndNeverTooSmall) {
 #if defined(NDEBUG)
     EXPECT_EQ(clipped(body, Vec4<double>(1, 0, 0, 0)).edge_count, body.edge_count) << "a cut too many cuts nothing";
 #endif
+}
+
+TEST(Sweep, OfABodyOfAsManyFacesAsThereCanBeLeavesNothingOut) {
+    ConvexBody<double> body = convex_body(Aabb<double>{Vec3<double>(-1.0), Vec3<double>(1.0)});
+    for (int i = 0; body.face_count < max_body_faces; ++i) {
+        double const height = 1 - 2 * (i + 0.5) / 26, angle = 2.399963 * i, r = std::sqrt(1 - height * height);
+        Vec3<double> const outward(r * std::cos(angle), height, r * std::sin(angle));
+        body = clipped(body, Vec4<double>(-outward, 1.0));
+    }
+    int most = 0;
+    for (int i = 0; i < 400; ++i) {
+        double const height = std::cos(0.37 * i), angle = 0.13 * i, r = std::sqrt(1 - height * height);
+        Vec3<double> const travel(r * std::cos(angle), height, r * std::sin(angle));
+        HalfSpaces<double> const swept = swept_to_light(body, Vec4<double>(travel, 0.0));
+        most = std::max(most, swept.count);
+        for_each_vertex(body, [&](Vec3<double> const& vertex) {
+            for (double const way : {0.0, 5.0}) EXPECT_TRUE(laws::inside(swept, vertex - travel * way, 1e-12));
+        });
+    }
+    EXPECT_EQ(most, max_body_faces) << "some outlines and unlit faces are more than there is room for";
 }

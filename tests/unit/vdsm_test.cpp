@@ -305,6 +305,15 @@ TEST(Vdsm, NamesAnyOptionThatIsNoNumberAndAnyThatIsOutOfRange) {
     EXPECT_FALSE(receiver_valid(ShadowMap<double>{}, V3(0.0))) << "no map, no answer";
 }
 
+TEST(Vdsm, NamesCastersAndReceiversThatAreNotFiniteEachAlone) {
+    Aabb<double> const endless{V3(-300, 0, -300), V3(300, inf, 300)};
+    for (bool const casters : {true, false}) {
+        auto const map = view_dependent_map(walker(), morning, ground, casters ? endless : town,
+                                            casters ? town : endless, {}, gl_clip);
+        EXPECT_TRUE(map.faults.has(Fault::not_finite)) << casters;
+    }
+}
+
 TEST(Vdsm, SaysThatPrecisionIsLostBeyondWhatAFloatCanMultiply) {
     ViewVolume<double> far_away = walker();
     far_away.pose.position.x = 1e13;
