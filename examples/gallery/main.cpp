@@ -55,7 +55,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->capture_default_str();
     app.add_option("--size", size, "WIDTHxHEIGHT of the pictures (960x540; quick: 640x360)")
         ->check([&](std::string const& text) {
-            return parse_extent(text, 16, settings.extent) ? "" : text + " is no size such as 960x540, 16 to 4096 a side";
+            return parse_extent(text, 16, settings.extent) ? ""
+                                                           : text + " is no size such as 960x540, 16 to 4096 a side";
         });
     app.add_flag("--validate", settings.validate,
                  "Vulkan under its validation layers; what they say stands in the notes");
