@@ -56,7 +56,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->capture_default_str();
     app.add_option("--size", size, "WIDTHxHEIGHT of the pictures (960x540; quick: 640x360)")
         ->check([&](std::string const& text) {
-            return parse_extent(text, 16, settings.extent) ? "" : text + " is no size such as 960x540, 16 to 4096 a side";
+            return parse_extent(text, 16, settings.extent) ? ""
+                                                           : text + " is no size such as 960x540, 16 to 4096 a side";
         });
     app.add_option("--ratios", settings.ratios, "the times that scripts/bench wrote, to be shown")
         ->capture_default_str();
@@ -73,7 +74,6 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         return 2;
     }
     if (size.empty() && settings.quick) settings.extent = {640, 360};
-    if (!size.empty()) parse_extent(size, 16, settings.extent);
     if (settings.scenes.empty()) settings.scenes = built_in;
     std::erase(settings.scenes, "none");
     if (!settings.models.empty() || !settings.scenes.empty()) return std::nullopt;

@@ -25,8 +25,8 @@ class Seen {
 public:
     Seen(gallery::MapSet const& maps, backend::Frame const& frame)
         : maps_(maps), eye_(maps.frame.eye_position), forward_(maps.frame.eye_forward),
-          world_from_clip_(glm::inverse(glm::dmat4(maps.frame.clip_from_world))),
-          size_(maps.map_size), extent_(frame.position.extent),
+          world_from_clip_(glm::inverse(glm::dmat4(maps.frame.clip_from_world))), size_(maps.map_size),
+          extent_(frame.position.extent),
           touched_(maps.maps.size(), std::vector<std::uint8_t>(std::size_t(size_) * std::size_t(size_))) {}
 
     // The pixel's part of the plane through its surface: a grid of points as dense as the kernel needs, were the
@@ -39,7 +39,8 @@ public:
                 glm::dvec3 const way = ray(x + (i + 0.5) / steps, y + (j + 0.5) / steps);
                 double const cosine = glm::dot(normal, way);
                 // Seen edge-on a pixel has no end; the next ones stand for it.
-                glm::dvec3 const there = std::abs(cosine) > 0.02 * glm::length(way) ? eye_ + way * (height / cosine) : point;
+                glm::dvec3 const there =
+                    std::abs(cosine) > 0.02 * glm::length(way) ? eye_ + way * (height / cosine) : point;
                 touch(touched_[map], maps_.maps[map].clip_from_world, there);
             }
     }
@@ -100,10 +101,13 @@ MapFigures map_figures(gallery::ViewTruth const& truth, gallery::MapSet const& m
             if (question == Question::none || question == Question::beyond) continue;
             glm::dmat4 const& clip_from_world = maps.maps[std::size_t(map)].clip_from_world;
             auto const major = [&](glm::dvec3 const& lean) {
-                return float(footprint(eye_clip_from_world, eye_pixels, clip_from_world, double(maps.map_size), point, lean).major);
+                return float(
+                    footprint(eye_clip_from_world, eye_pixels, clip_from_world, double(maps.map_size), point, lean)
+                        .major);
             };
             whole.push_back(major(normal));
-            glm::dvec3 const to_eye = glm::normalize(view.eye - point), half = to_eye - glm::normalize(view.light_travel);
+            glm::dvec3 const to_eye = glm::normalize(view.eye - point),
+                             half = to_eye - glm::normalize(view.light_travel);
             perspective.push_back(major(glm::length(half) > 1e-3 ? glm::normalize(half) : to_eye));
         }
     MapFigures figures;

@@ -12,7 +12,7 @@ namespace shadowmath::quality {
 // A footprint is perspective aliasing times cos(eye, normal) / cos(light, normal). The first factor is what maps decide
 // (Wimmer et al. 2004); the second is the surface's own, and without bound where the light grazes it.
 struct MapFigures {
-    double footprint_median = 0.0;                       // eye pixels a texel, both factors
+    double footprint_median = 0.0;                         // eye pixels a texel, both factors
     double perspective_mean = 0.0, perspective_p95 = 0.0;  // the first alone: on surfaces that lean as far from the eye
                                                            // as from the light
     double texels_seen = 0.0;  // share of texels that the filter would read for points all over the pixels, not at

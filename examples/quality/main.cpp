@@ -28,7 +28,9 @@ int study(int argc, char** argv) {
     app.add_option("--out", settings.out, "folder to write")->capture_default_str();
     app.add_option("--models", settings.models, "folder of Wavefront OBJ files to study too");
     app.add_option("--size", size, "WIDTHxHEIGHT of the pictures")->check([&](std::string const& text) {
-        return gallery::parse_extent(text, 64, settings.extent) ? "" : text + " is no size such as 960x540, 64 to 4096 a side";
+        return gallery::parse_extent(text, 64, settings.extent)
+                   ? ""
+                   : text + " is no size such as 960x540, 64 to 4096 a side";
     });
     app.add_option("--policy", settings.only_policies, "only these policies, by id");
     app.add_option("--view", settings.only_views, "only views whose scene/name holds one of these");

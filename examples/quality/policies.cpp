@@ -103,8 +103,7 @@ Fitted chosen_options(Input const& in, SurfacePoint<double> const* samples, int 
     limits.motion = Motion::any;
     limits.goal = Goal::fewest_wrong;
     CascadeOptions<double> const given = cascade_options(CascadeFit::tight);
-    Choice<double> const choice =
-        choose(in.seen, in.light, in.casters, in.receivers, samples, count, given, limits);
+    Choice<double> const choice = choose(in.seen, in.light, in.casters, in.receivers, samples, count, given, limits);
     CascadeOptions<double> options = choice.options;
     options.map_size = map_size;
     return with(fit_cascades(in.seen, in.light, in.casters, in.receivers, options));

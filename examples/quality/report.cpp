@@ -23,10 +23,9 @@ std::string formatted(char const* format, Values... values) {
 }  // namespace
 
 std::string table(Results const& results) {
-    std::string text =
-        formatted("%-34s %7s %7s %7s %6s | %6s %6s %6s %6s | %6s %6s | %5s %5s | %5s %5s %6s %8s\n",
-                  "% of off-edge pixels wrong", "mean", "geom.", "worst", "/folk", "px", "p95", "(med.", "med.)", "persp.",
-                  "p95", "used%", "seen%", "ok%", "all%", "dark", "ms");
+    std::string text = formatted("%-34s %7s %7s %7s %6s | %6s %6s %6s %6s | %6s %6s | %5s %5s | %5s %5s %6s %8s\n",
+                                 "% of off-edge pixels wrong", "mean", "geom.", "worst", "/folk", "px", "p95", "(med.",
+                                 "med.)", "persp.", "p95", "used%", "seen%", "ok%", "all%", "dark", "ms");
     for (Summary const& s : summaries(results))
         text += formatted("%-34s %7.4f %7.4f %7.3f %6.3f | %6.2f %6.2f %6.2f %6.2f | %6.3f %6.2f | %5.1f %5.1f | %5.1f "
                           "%5.1f %6ld %8.2f\n",
@@ -35,10 +34,11 @@ std::string table(Results const& results) {
                           s.footprint_p95_median, s.figures.perspective_mean, s.figures.perspective_p95,
                           100.0 * s.texels_used, 100.0 * s.figures.texels_seen, 100.0 * s.not_worse,
                           100.0 * s.not_worse_than_any, s.dark_unmapped, s.fit_milliseconds);
-    text += formatted("%zu views. px, p95: mean over the views, and their medians in brackets. persp.: the same without the "
-                      "surface's own share of it, cos(eye) / cos(light).\n"
-                      "used: texels that the filter reads for the pixels' centres; seen: for points all over the pixels.\n",
-                      results.views.size());
+    text += formatted(
+        "%zu views. px, p95: mean over the views, and their medians in brackets. persp.: the same without the "
+        "surface's own share of it, cos(eye) / cos(light).\n"
+        "used: texels that the filter reads for the pixels' centres; seen: for points all over the pixels.\n",
+        results.views.size());
     for (std::string const& what : results.absent) text += "ABSENT, not studied: " + what + "\n";
     return text;
 }

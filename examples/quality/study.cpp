@@ -144,8 +144,8 @@ private:
             gallery::Record const& record = measured.record;
             result.scores.push_back({policy.id, record.mis_shadowed_fraction_off_edge, record.off_edge_pixels,
                                      record.footprint_mean, record.footprint_p95, record.map_used_fraction,
-                                     map_figures(truth, made.maps, frame, view),
-                                     dark_unmapped(truth, frame), record.maps, made.milliseconds, made.maps.note});
+                                     map_figures(truth, made.maps, frame, view), dark_unmapped(truth, frame),
+                                     record.maps, made.milliseconds, made.maps.note});
             keep_pictures(scene.name + "-" + view.name, policy, frame, measured, result);
             char text[64];
             std::snprintf(text, sizeof text, " %s %.3f", policy.id.c_str(),

@@ -63,7 +63,7 @@ struct Summary {
     double of_best_folk = 0.0;                         // mean over the least mean of a folk recipe
     double footprint_mean = 0.0, footprint_p95 = 0.0;  // mean of both over the views
     double texels_used = 0.0;
-    MapFigures figures;                                         // means over the views
+    MapFigures figures;                                              // means over the views
     double footprint_mean_median = 0.0, footprint_p95_median = 0.0;  // of the views, not their mean
     double not_worse = 0.0;           // share of views in which it is not worse than the folk recipe of the least mean
     double not_worse_than_any = 0.0;  // and than the best folk recipe of each view

@@ -108,11 +108,11 @@ template <class T>
     return count;
 }
 
-// The same as samples for choose.hpp and judge.hpp, which know no weights: on each of eight by eight rays four, the more
-// of them in a box the likelier the ray ends there. None of a view with faults, or without an end.
+// The same as samples for choose.hpp and judge.hpp, which know no weights: on each of eight by eight rays four, the
+// more of them in a box the likelier the ray ends there. None of a view with faults, or without an end.
 template <class T>
-[[nodiscard]] inline Samples<T> samples_in_boxes(ViewVolume<T> const& view, Light<T> const& light,
-                                                 Aabb<T> const* boxes, int box_count) noexcept {
+[[nodiscard]] inline Samples<T> samples_in_boxes(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const* boxes,
+                                                 int box_count) noexcept {
     SHADOWMATH_ASSERT(boxes != nullptr || box_count <= 0, "samples need their boxes");
     Samples<T> samples;
     if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light)) return samples;

@@ -29,7 +29,8 @@ struct FinestMaps {
     T second_major = T(0);
 };
 
-// With one more map, whose texels are `major` pixels long at the point. The earlier one stays first where two are equal.
+// With one more map, whose texels are `major` pixels long at the point. The earlier one stays first where two are
+// equal.
 template <class T>
 [[nodiscard]] inline FinestMaps<T> with_map(FinestMaps<T> finest, int map, T major) noexcept {
     if (finest.first < 0 || major < finest.first_major) return {map, finest.first, major, finest.first_major};
@@ -61,8 +62,7 @@ template <class T>
     for (int i = 0; i < count; ++i) {
         if (!contains(maps[i], map_size, margin_texels, point)) continue;
         Mat4<T> const& map = maps[i].clip_from_world;
-        finest = with_map(finest, i,
-                          footprint(eye_clip_from_world, eye_pixels, map, T(map_size), point, normal).major);
+        finest = with_map(finest, i, footprint(eye_clip_from_world, eye_pixels, map, T(map_size), point, normal).major);
     }
     return look_up_in(finest, band);
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Options found by measuring: how many maps, how large, split where, fitted how, so that the worst (or the mean)
-// footprint over what the eye sees is least, or the fewest pixels come out wrong, within a number of texels. For a settings menu, an editor, the loading of
-// a level, or again when the camera has gone somewhere else; not for every frame, since options that change make
-// shadows jump.
+// footprint over what the eye sees is least, or the fewest pixels come out wrong, within a number of texels. For a
+// settings menu, an editor, the loading of a level, or again when the camera has gone somewhere else; not for every
+// frame, since options that change make shadows jump.
 //
 // It tries them: every number of maps, every fit allowed, eleven values of lambda and then between the best two
-// neighbours; of warped maps also each with half of its warp and with none. No randomness, no clock; the same inputs give
-// the same options, after at most 29 tries for each pair of count and fit and two for each warped map. Where two are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
+// neighbours; of warped maps also each with half of its warp and with none. No randomness, no clock; the same inputs
+// give the same options, after at most 29 tries for each pair of count and fit and two for each warped map. Where two
+// are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
 //
 // Source: none; engines leave this to the user's eye. The closed forms (aliasing.hpp) say what is best for one light on
 // one plane; this holds for any.

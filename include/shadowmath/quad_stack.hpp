@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Maps one behind another: the parts of a search as quadrilaterals, finest first, each around what no earlier one holds.
+// Maps one behind another: the parts of a search as quadrilaterals, finest first, each around what no earlier one
+// holds.
 //
-//   by_map (sampling.hpp) looks a point up in the first map that holds it, so what lies in an earlier one need not be in
-//   a later one: that becomes smaller, and its texels finer. A part that the earlier ones hold whole gets no map.
+//   by_map (sampling.hpp) looks a point up in the first map that holds it, so what lies in an earlier one need not be
+//   in a later one: that becomes smaller, and its texels finer. A part that the earlier ones hold whole gets no map.
 //
 // The last step of choose_maps.hpp; of no use without it.
 //
@@ -47,8 +48,8 @@ struct QuadStack {
     }
 };
 
-// `cover(part, visit)` calls visit(points, count) for convex pieces that together hold all that may be seen in the part:
-// a piece that an earlier quadrilateral holds whole is left out, any other is held whole.
+// `cover(part, visit)` calls visit(points, count) for convex pieces that together hold all that may be seen in the
+// part: a piece that an earlier quadrilateral holds whole is left out, any other is held whole.
 template <class T, class Bound, class Cover>
 [[nodiscard]] inline QuadStack<T> stacked(PartSearch<T, Bound>& search, PartTree<T> const& tree,
                                           Cover const& cover) noexcept {

@@ -79,8 +79,8 @@ float sm_normal_offset_metres(float texel_metres, int filter_radius, vec3 normal
 
 // The same for any map, whose texels differ from place to place: the least metres along the unit `normal` with which
 // the plane through `point` does not shadow itself in this map. `to_light` is unit; `lamp_metres` the distance to a
-// spot, 0 of a sun; `depth_gain` the map's (depth_gain of the C++, once a map). At most `most_metres`; 0 where the plane
-// faces away, or the map does not hold the point.
+// spot, 0 of a sun; `depth_gain` the map's (depth_gain of the C++, once a map). At most `most_metres`; 0 where the
+// plane faces away, or the map does not hold the point.
 float sm_normal_offset_at(sm_ShadowMap map, int map_size, int filter_radius, vec3 point, vec3 normal, vec3 to_light,
                           float lamp_metres, float depth_gain, float most_metres) {
     sm_Projected at = sm_projected(map.clip_from_world, point, map.w_min);

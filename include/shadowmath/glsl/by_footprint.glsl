@@ -28,7 +28,8 @@ sm_FinestMaps sm_no_maps() {
     return sm_FinestMaps(-1, -1, 0.0, 0.0);
 }
 
-// With one more map, whose texels are `major` pixels long at the point. The earlier one stays first where two are equal.
+// With one more map, whose texels are `major` pixels long at the point. The earlier one stays first where two are
+// equal.
 sm_FinestMaps sm_with_map(sm_FinestMaps finest, int map, float major) {
     if (finest.first < 0 || major < finest.first_major)
         return sm_FinestMaps(map, finest.first, major, finest.first_major);
