@@ -21,14 +21,6 @@ inline namespace v0 {
 
 namespace detail {
 
-inline void fetch_soon(void const* line) noexcept {
-#if defined(__GNUC__)
-    __builtin_prefetch(line);
-#else
-    static_cast<void>(line);
-#endif
-}
-
 template <class Lanes, class T = typename Lanes::Scalar>
 struct CoverKernel {
     IrregularBuffer<T>& buffer;
