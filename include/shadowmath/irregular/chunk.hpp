@@ -23,9 +23,9 @@ inline constexpr std::uint32_t chunk_room = 192;
 // What a tile needs of a triangle.
 template <class T>
 struct RaisedTriangle {
-    Wider<T> x[4], y[4], a[4], b[4];     // of each of the four half spaces
-    T across[4], upward[4], by_q[4];     // x, y and b once more
-    T keys[5];                           // see tile.hpp
+    Wider<T> x[4], y[4], a[4], b[4];  // of each of the four half spaces
+    T across[4], upward[4], by_q[4];  // x, y and b once more
+    T keys[5];                        // see tile.hpp
 };
 
 // Bounds in lanes. What is behind the last, up to sixteen, may be anything.
