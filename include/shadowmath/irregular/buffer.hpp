@@ -129,8 +129,8 @@ struct IrregularBuffer {
 
 // What is kept of a tile. Its scalars: the q of each pixel less the tile's, q_x, q_y; then the tile's q, near those of
 // its pixels, so that the differences are known to far more digits; and for each of the five keys of tile.hpp, where
-// its bytes begin and how long a step of theirs is. Its words: four keys of each pixel, a byte each, and the fifth; which
-// pixels light may reach that have a sample not yet covered, a bit each; the masks.
+// its bytes begin and how long a step of theirs is. Its words: four keys of each pixel, a byte each, and the fifth;
+// which pixels light may reach that have a sample not yet covered, a bit each; the masks.
 inline constexpr int tile_scalars = 64, tile_words = 48;
 inline constexpr int tile_q_at = 48, key_base_at = 49, key_step_at = 54;
 inline constexpr int alive_at = 20, mask_at = 32;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Which samples of a tile the triangles of a chunk cover. First the pixels whose bounds are out of a triangle's reach
-// are left out; the others are held against the four planes of its shadow volume; samples are looked at last, in pixels
-// that a plane crosses. Tiles are queued, so that what they need of memory is asked for before it is used; and each step
-// is done for all triangles of a tile before the next, so that none waits for what is found of another.
+// Which samples of their tiles the triangles of a chunk cover. First the pixels whose bounds are out of a triangle's
+// reach are left out; the others are held against the four planes of its shadow volume; samples are looked at last, in
+// pixels that a plane crosses. Tiles are queued, so that what they need of memory is asked for before it is used; and
+// each step is done for all pairs of the queue before the next: a pair waits for no other, and loops are long.
 #pragma once
 
 #include <shadowmath/config.hpp>
@@ -129,8 +129,8 @@ struct CoverKernel {
         pairs.count = kept;
     }
 
-    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is no
-    // more than a tile's worth.
+    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is
+    // no more than a tile's worth.
     void place(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t first, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
         auto const all = [](Real value) { return Wide::all(value); };

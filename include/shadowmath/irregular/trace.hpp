@@ -13,10 +13,10 @@
 //
 // Source: Wyman, Hoetzlein and Lefohn, TVCG 22(10) 2016. Departures: tiles of 4 x 4 pixels are tested at once, first by
 // bounds of a byte each, then against all four planes before any sample; triangles are clipped only to find their
-// texels; and they are put in the order of the grid, so that a cell takes the few of its neighbourhood sixteen at once.
+// texels; and they are put in the order of the grid, where a node is held against sixteen of its neighbourhood at once.
 //
-// Against ray tracing (bench/irregular.cpp, 32 samples a pixel, one thread): the whole frame takes an eighth of Embree's
-// best at 100 thousand triangles and a seventh at a million, half of Embree's with one ray a pixel.
+// Against ray tracing (bench/irregular.cpp, 32 samples a pixel, one thread): the whole frame takes a seventh to a
+// twelfth of Embree's best, at 100 thousand triangles and at a million; about half of Embree's with one ray a pixel.
 #pragma once
 
 #include <shadowmath/config.hpp>
