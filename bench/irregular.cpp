@@ -230,8 +230,7 @@ void show_grids(PixelFrame<float> const& frame, Picture const& picture, CasterSc
     for (char const* const name : {"plain", "turned", "warp", "plane"}) {
         Ours ours(1, map_size);
         std::vector<double> times;
-        for (int i = 0; i < 3; ++i)
-            times.push_back(ours.frame(frame, picture, scene, grid_named(name, scene)));
+        for (int i = 0; i < 3; ++i) times.push_back(ours.frame(frame, picture, scene, grid_named(name, scene)));
         ListCounts const& c = ours.strips[0].counts;
         std::printf("  grid %-6s %6u lists, mean %6.2f, longest %5u nodes; %7.1f ms%s\n", name, c.lists,
                     static_cast<double>(c.nodes) / std::max(1u, c.lists), c.longest, median(times),

@@ -17,6 +17,7 @@
 #include <shadowmath/irregular/tile.hpp>
 
 #include <shadowmath/irregular/casters.hpp>
+#include <shadowmath/irregular/chunk.hpp>
 #include <shadowmath/irregular/cover.hpp>
 #include <shadowmath/irregular/trace.hpp>
 

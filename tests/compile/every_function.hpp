@@ -32,6 +32,8 @@ int every_irregular_function_on() noexcept {
         smallest(chosen(1u, absolute(lanes), with_sign_of(lanes, lanes))) < largest(fused(lanes, lanes, lanes - lanes));
     count += Lanes::compress(at_least(lanes, lanes), words, words + 16) > 16;
     count += half_plane_mask<Lanes>(PixelLine<T>{}) == half_plane_mask(half_plane_table(), PixelLine<T>{});
+    PixelLine<T> const lines[4]{};
+    count += half_planes_mask<Lanes>(lines) == every_sample;
     return count;
 }
 

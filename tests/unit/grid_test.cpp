@@ -68,10 +68,11 @@ TEST_F(Listing, HoldsATileInEveryTexelThatItsFootprintTouches) {
                 auto const tile = static_cast<std::uint32_t>(row / 4 * 12 + column / 4);
                 bool found = false;
                 auto const look = [&](std::uint32_t first, std::uint32_t last) {
-                    for (std::uint32_t node = buffer.first[first]; node < buffer.first[last + 1]; ++node)
-                        found =
-                            found || (buffer.tile[node] == tile && buffer.lo_x[node] <= x && x <= buffer.hi_x[node] &&
-                                      buffer.lo_y[node] <= y && y <= buffer.hi_y[node] && at.z <= buffer.depth[node]);
+                    for (std::uint32_t node = buffer.first[first]; node < buffer.first[last + 1]; ++node) {
+                        float const* const of_node = buffer.bounds + 5 * std::size_t{node};
+                        found = found || (buffer.tile[node] == tile && of_node[0] <= x && x <= of_node[1] &&
+                                          of_node[2] <= y && y <= of_node[3] && at.z <= of_node[4]);
+                    }
                 };
                 for (int level = 0; level < buffer.level_count; ++level) {
                     detail::PlaceRange const texel = detail::texels_of(places, level);

@@ -191,6 +191,7 @@ TEST(House, EveryHeaderHasLawsOrAUnitTest) {
     std::map<std::string, std::string> const part_of{{"lists", "grid"},
                                                      {"tile", "grid"},
                                                      {"casters", "trace"},
+                                                     {"chunk", "trace"},
                                                      {"cover", "trace"},
                                                      {"plain_lanes", "irregular_lanes"},
                                                      {"x86_lanes", "irregular_lanes"},

@@ -103,15 +103,26 @@ TYPED_TEST(AnyLanes, GatherRowsAndComponentsOfTiles) {
     }
 }
 
-TYPED_TEST(AnyLanes, PickFourOfSixteenAndSpreadFour) {
+TYPED_TEST(AnyLanes, GatherPointsFromAnywhere) {
     using T = typename TypeParam::Scalar;
-    std::array<std::uint32_t, 4> const places{3, 15, 0, 8};
-    auto const picked = numbers(TypeParam::picked(some<T>.data(), places.data()));
-    auto const spread = numbers(TypeParam::quadrupled(some<T>.data()));
-    for (std::size_t k = 0; k < 16; ++k) {
-        EXPECT_EQ(picked[k], some<T>[places[k % 4]]);
-        EXPECT_EQ(spread[k], some<T>[k / 4]);
-    }
+    std::array<T, 100> numbers_of;
+    for (std::size_t i = 0; i < 100; ++i) numbers_of[i] = static_cast<T>(i);
+    auto const at = [&](int k) { return numbers_of.data() + (k * 37 + 5) % 98; };
+    TypeParam xyz[3];
+    TypeParam::points(at, xyz);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < 16; ++k)
+            EXPECT_EQ(numbers(xyz[axis])[static_cast<std::size_t>(k)], at(k)[axis]) << axis << " of " << k;
+}
+
+TYPED_TEST(AnyLanes, GatherWideRowsAndNarrowThem) {
+    using T = typename TypeParam::Scalar;
+    using Real = Wider<T>;
+    std::array<Real, 40> numbers_of;
+    for (std::size_t i = 0; i < 40; ++i) numbers_of[i] = Real(i) + Real(1) / Real(3);
+    Real const* const row[4] = {&numbers_of[0], &numbers_of[13], &numbers_of[7], &numbers_of[36]};
+    auto const narrow = numbers(TypeParam::narrow(TypeParam::Wide::rows(row)));
+    for (std::size_t k = 0; k < 16; ++k) EXPECT_EQ(narrow[k], static_cast<T>(row[k / 4][k % 4]));
 }
 
 TYPED_TEST(AnyLanes, StoreBytesWithoutFractionsFrom0To255) {
@@ -126,29 +137,19 @@ TYPED_TEST(AnyLanes, StoreBytesWithoutFractionsFrom0To255) {
     EXPECT_EQ(bytes, wanted);
 }
 
-TYPED_TEST(AnyLanes, ReachTheBytesThatTheKeysReach) {
+TYPED_TEST(AnyLanes, LoadBytesAndStoreWordsWithoutFractions) {
     using T = typename TypeParam::Scalar;
-    std::array<T, 8> const base{0, -2, 10, 0, 5, 0, 0, 0}, gain{1, 2, 1, 1, 1, 0, 0, 0};
-    std::array<unsigned char, 64> bytes{};
-    std::array<unsigned char, 16> more{};
+    std::array<unsigned char, 17> bytes;
+    for (std::size_t k = 0; k < 17; ++k) bytes[k] = static_cast<unsigned char>(k * 17 - 17);
+    TypeParam const loaded = TypeParam::load_bytes(bytes.data() + 1);
+    std::array<std::uint32_t, 18> words;
+    words.fill(77);
+    (loaded * TypeParam::all(T(100)) + TypeParam::all(T(0.75))).store_words(words.data() + 1);
     for (std::size_t k = 0; k < 16; ++k) {
-        bytes[k] = static_cast<unsigned char>(10 * k);
-        bytes[16 + k] = static_cast<unsigned char>(200 - 10 * k);
-        more[k] = k == 9 ? 255 : 0;
+        EXPECT_EQ(numbers(loaded)[k], static_cast<T>(17 * k));
+        EXPECT_EQ(words[k + 1], 1700 * k);
     }
-    auto const reached = [&](T key0, T key1, T key4) {
-        std::array<T, 8> const keys{key0, key1, 10, 0, key4, 0, 0, 0};
-        return TypeParam::reached(keys.data(), base.data(), gain.data(), bytes.data(), more.data());
-    };
-    // Byte k of the first is at most 115 for k <= 11, of the second at most 2 (48 + 2) = 100 for k >= 10.
-    EXPECT_EQ(reached(T(115.9), T(48), T(1000)), 0x0c00u);
-    EXPECT_EQ(reached(T(115.9), T(300), T(1000)), 0x0fffu);
-    EXPECT_EQ(reached(T(115.9), T(300), T(100)), 0x0dffu) << "pixel 9 lies beyond";
-    EXPECT_EQ(reached(T(0), T(300), T(1000)), 1u);
-    EXPECT_EQ(reached(T(-0.001), T(300), T(1000)), 0u) << "less than the least of them";
-    EXPECT_EQ(reached(T(115.9), T(300), T(4.9)), 0u);
-    T const nan = std::numeric_limits<T>::quiet_NaN();
-    EXPECT_EQ(reached(nan, nan, nan), 0xffffu) << "what is not known reaches all";
+    EXPECT_EQ(words[0] + words[17], 154u) << "nothing beside the sixteen";
 }
 
 TEST(Lanes, AreAtLeastPlainAndWidenWhereFloatsCancel) {

@@ -57,6 +57,17 @@ TEST(HalfPlaneMask, AndItsNegativeHoldEverySampleAndShareOnlyThoseOnTheLine) {
         }
 }
 
+TEST(HalfPlanesMask, HoldsWhatAllFourHold) {
+    for (int a = 0; a < 64; ++a) {
+        PixelLine<float> lines[4];
+        for (int i = 0; i < 4; ++i) lines[i] = line(a * 0.0981747704 + 1.4 * i, -0.3 + 0.01 * a * (i - 1));
+        std::uint32_t all = every_sample;
+        for (PixelLine<float> const& one : lines) all &= half_plane_mask<Best>(one);
+        EXPECT_EQ(half_planes_mask<Best>(lines), all) << a;
+        EXPECT_EQ(half_planes_mask<PlainLanes<float>>(lines), all) << a;
+    }
+}
+
 TEST(HalfPlaneTable, DiffersFromTheExactMaskOnlyNearTheLine) {
     HalfPlaneTable const table = half_plane_table();
     int differing = 0;

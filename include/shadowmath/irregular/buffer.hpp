@@ -2,8 +2,9 @@
 //
 // What the irregular z-buffer is made of, and the storage that holds it: plain arrays of the caller's.
 //
-// Memory, in floats, with the capacity that storage_for takes by itself: 51 bytes a pixel, 29 a texel of the grid, 1
-// MiB for sorting triangles; nothing for each triangle. A capacity known from the frame before spares a fifth of it.
+// Memory, in floats, with the capacity that storage_for takes by itself: 64 bytes a pixel, 12 of them for sorting
+// triangles, and 37 a texel of the grid; nothing for each triangle. A capacity known from the frame before spares a
+// fifth of it.
 #pragma once
 
 #include <shadowmath/config.hpp>
@@ -108,7 +109,7 @@ struct IrregularBuffer {
     std::uint32_t* texel_division = nullptr;  // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
     // For trace: triangles are put in the order of the lists, a block at a time.
-    std::uint32_t* caster = nullptr;
+    std::uint32_t* caster = nullptr;  // and those behind it, caster_room each
     std::uint32_t* caster_list = nullptr;
     std::uint32_t* caster_order = nullptr;
     std::uint32_t* caster_end = nullptr;  // of each list
@@ -128,8 +129,8 @@ struct IrregularBuffer {
 
 // What is kept of a tile. Its scalars: the q of each pixel less the tile's, q_x, q_y; then the tile's q, near those of
 // its pixels, so that the differences are known to far more digits; and for each of the five keys of tile.hpp, where
-// its bytes begin and how long a step of theirs is. Its words: four keys of each pixel, a byte each, and the fifth; which
-// pixels light may reach that have a sample not yet covered, a bit each; the masks.
+// its bytes begin and how long a step of theirs is. Its words: four keys of each pixel, a byte each, and the fifth;
+// which pixels light may reach that have a sample not yet covered, a bit each; the masks.
 inline constexpr int tile_scalars = 64, tile_words = 48;
 inline constexpr int tile_q_at = 48, key_base_at = 49, key_step_at = 54;
 inline constexpr int alive_at = 20, mask_at = 32;
@@ -155,7 +156,7 @@ inline constexpr std::size_t line_slack = cache_line / 4 - 1;
     // Every four nodes that touch a texel pay for a division. As many triangles as pixels are put in order at once.
     std::size_t const nodes = 4 * parts, lists = 2 * texels + coarser + parts + 2;
     return {tile_scalars * tiles + 5 * nodes + 5 * parts + 2 * texels + line_slack,
-            tile_words * tiles + nodes + 3 * parts + 2 * lists + 3 * texels + 3 * lane_count * tiles + line_slack};
+            tile_words * tiles + nodes + 2 * lists + 3 * texels + 3 * lane_count * tiles + line_slack};
 }
 
 namespace detail {
@@ -189,11 +190,12 @@ template <class T>
         storage.size.words < least.words)
         return parts;
     std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
-    std::size_t const by_words = (storage.size.words - least.words) / 9;
+    std::size_t const by_words = (storage.size.words - least.words) / 6;
     std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
-    // Nodes are counted with 32 bits, tiles with 28.
-    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 28 ? capacity : 1u << 28);
+    // There are no more parts than pixels. Nodes are counted with 32 bits, tiles with 28.
     auto const tiles = static_cast<std::size_t>(buffer.tile_count);
+    std::size_t const most = lane_count * tiles < 1u << 28 ? lane_count * tiles : 1u << 28;
+    parts.capacity = static_cast<std::uint32_t>(capacity < most ? capacity : most);
     auto const texels = static_cast<std::size_t>(buffer.map_size) * static_cast<std::size_t>(buffer.map_size);
     std::size_t const nodes = 4 * std::size_t{parts.capacity};
     buffer.caster_room = static_cast<std::uint32_t>(lane_count * tiles);
@@ -217,9 +219,8 @@ template <class T>
     buffer.tile = take(words, nodes);
     for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division})
         *array = take(words, texels);
-    parts.place = take(words, 3 * std::size_t{parts.capacity});
-    std::size_t const lists = (static_cast<std::size_t>(storage.words + storage.size.words - words)) / 2;
-    buffer.first = take(words, lists);
+    parts.place = buffer.caster;  // there are no casters yet
+    buffer.first = take(words, (static_cast<std::size_t>(storage.words + storage.size.words - words)) / 2);
     buffer.caster_end = words;
     std::memset(buffer.texel_levels, 0, texels * sizeof(std::uint32_t));
     std::memset(buffer.texel_division, 0, texels * sizeof(std::uint32_t));

@@ -86,11 +86,12 @@ struct CasterKernel {
         return any;
     }
 
+    // Of triangles without indices; where there are some, neighbours share their vertices anyway.
     void fetch(std::uint32_t triangle) const noexcept {
         if (casters.index != nullptr) return;
         T const* const from = casters.position + std::size_t{3} * triangle * static_cast<std::size_t>(casters.stride);
-        __builtin_prefetch(from);
-        __builtin_prefetch(from + 8);
+        fetch_soon(from);
+        fetch_soon(from + 8);
     }
 
     // `order` gives the triangles, or they follow each other from `begin` on.

@@ -23,12 +23,12 @@ inline constexpr std::uint32_t chunk_room = 192;
 // What a tile needs of a triangle.
 template <class T>
 struct RaisedTriangle {
-    Wider<T> x[4], y[4], a[4], b[4];     // of each of the four half spaces
-    T across[4], upward[4], by_q[4];     // x, y and b once more
-    T keys[5];                           // see tile.hpp
+    Wider<T> x[4], y[4], a[4], b[4];  // of each of the four half spaces
+    T across[4], upward[4], by_q[4];  // x, y and b once more
+    T keys[5];                        // see tile.hpp
 };
 
-// Bounds in lanes, behind the last of which as many as fill sixteen touch nothing.
+// Bounds in lanes. What is behind the last, up to sixteen, may be anything.
 template <class Lanes, class T = typename Lanes::Scalar>
 struct CasterBounds {
     T lo_x[chunk_room + lane_count], hi_x[chunk_room + lane_count];
@@ -37,14 +37,9 @@ struct CasterBounds {
     std::uint32_t slot[chunk_room + lane_count];
     std::uint32_t count = 0;
 
-    void end() noexcept {
-        Lanes const most = Lanes::all(std::numeric_limits<T>::max());
-        Lanes const least = Lanes::all(std::numeric_limits<T>::lowest());
-        most.store(lo_x + count);
-        least.store(hi_x + count);
-        most.store(lo_y + count);
-        least.store(hi_y + count);
-        most.store(depth + count);
+    // Bit k: the one at `from` + k is there.
+    [[nodiscard]] std::uint32_t there(std::uint32_t from) const noexcept {
+        return count - from < lane_count ? (1u << (count - from)) - 1u : (1u << lane_count) - 1u;
     }
     // Those that may touch the rectangle, no farther from the light than `far_end`.
     [[nodiscard]] std::uint32_t touching(std::uint32_t from, Lanes const& x0, Lanes const& x1, Lanes const& y0,
@@ -77,15 +72,17 @@ template <class T>
 template <class Lanes, class T = typename Lanes::Scalar>
 struct CellCasters {
     CasterBounds<Lanes> bounds;
-    std::uint32_t begin_x[chunk_room / lane_count];  // bit k: begins no farther left than the cell
-    std::uint32_t begin_y[chunk_room / lane_count];
+    std::uint32_t any[chunk_room / lane_count];      // bit k: is there
+    std::uint32_t begin_x[chunk_room / lane_count];  // and begins no farther left than the cell
+    std::uint32_t begin_y[chunk_room / lane_count];  // or no lower
 
     void take(CasterBounds<Lanes> const& from, Cell<T> const& cell, T far_end) noexcept {
         auto const all = [](T value) { return Lanes::all(value); };
         Lanes const x0 = all(cell.x0), x1 = all(cell.x1), y0 = all(cell.y0), y1 = all(cell.y1), depth = all(far_end);
         std::uint32_t n = 0;
         for (std::uint32_t i = 0; i < from.count; i += lane_count)
-            n += Lanes::compress(from.touching(i, x0, x1, y0, y1, depth), from.slot + i, bounds.slot + n);
+            n += Lanes::compress(from.there(i) & from.touching(i, x0, x1, y0, y1, depth), from.slot + i,
+                                 bounds.slot + n);
         bounds.count = n;
         if (n == 0) return;
         for (std::uint32_t i = 0; i < n; ++i) {
@@ -96,10 +93,10 @@ struct CellCasters {
             bounds.hi_y[i] = from.hi_y[slot];
             bounds.depth[i] = from.depth[slot];
         }
-        bounds.end();
-        for (std::uint32_t i = 0; i < n; i += lane_count) {
-            begin_x[i / lane_count] = at_least(Lanes::load(bounds.lo_x + i), x0);
-            begin_y[i / lane_count] = at_least(Lanes::load(bounds.lo_y + i), y0);
+        for (std::uint32_t i = 0, g = 0; i < n; i += lane_count, ++g) {
+            any[g] = bounds.there(i);
+            begin_x[g] = any[g] & at_least(Lanes::load(bounds.lo_x + i), x0);
+            begin_y[g] = any[g] & at_least(Lanes::load(bounds.lo_y + i), y0);
         }
     }
 
@@ -107,14 +104,12 @@ struct CellCasters {
     [[nodiscard]] std::uint32_t find(T const* node, Cell<T> const& cell, std::uint32_t* slots) const noexcept {
         Lanes const lo_x = Lanes::all(node[0]), hi_x = Lanes::all(node[1]), lo_y = Lanes::all(node[2]),
                     hi_y = Lanes::all(node[3]), depth = Lanes::all(node[4]);
-        std::uint32_t const any_x = node[0] >= cell.x0 ? 0xffffu : 0u, any_y = node[2] >= cell.y0 ? 0xffffu : 0u;
+        std::uint32_t const* const in_x = node[0] >= cell.x0 ? any : begin_x;
+        std::uint32_t const* const in_y = node[2] >= cell.y0 ? any : begin_y;
         std::uint32_t n = 0;
-        for (std::uint32_t i = 0; i < bounds.count; i += lane_count) {
-            std::uint32_t const g = i / lane_count;
-            std::uint32_t const bits = bounds.touching(i, lo_x, hi_x, lo_y, hi_y, depth) & (any_x | begin_x[g]) &
-                                       (any_y | begin_y[g]);
-            n += Lanes::compress(bits, bounds.slot + i, slots + n);
-        }
+        for (std::uint32_t i = 0, g = 0; i < bounds.count; i += lane_count, ++g)
+            n += Lanes::compress(in_x[g] & in_y[g] & bounds.touching(i, lo_x, hi_x, lo_y, hi_y, depth), bounds.slot + i,
+                                 slots + n);
         return n;
     }
 };
@@ -149,14 +144,16 @@ struct CasterChunk {
 
     // What all of them together may touch, as bounds, and the end nearest to the light.
     void together(T (&all)[5]) const noexcept {
-        Lanes lo_x = Lanes::load(bounds.lo_x), hi_x = Lanes::load(bounds.hi_x), lo_y = Lanes::load(bounds.lo_y),
-              hi_y = Lanes::load(bounds.hi_y), depth = Lanes::load(bounds.depth);
-        for (std::uint32_t i = lane_count; i < bounds.count; i += lane_count) {
-            lo_x = least(lo_x, Lanes::load(bounds.lo_x + i));
-            hi_x = most(hi_x, Lanes::load(bounds.hi_x + i));
-            lo_y = least(lo_y, Lanes::load(bounds.lo_y + i));
-            hi_y = most(hi_y, Lanes::load(bounds.hi_y + i));
-            depth = least(depth, Lanes::load(bounds.depth + i));
+        Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
+        Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
+        Lanes lo_x = huge, hi_x = low, lo_y = huge, hi_y = low, depth = huge;
+        for (std::uint32_t i = 0; i < bounds.count; i += lane_count) {
+            std::uint32_t const there = bounds.there(i);
+            lo_x = least(lo_x, chosen(there, Lanes::load(bounds.lo_x + i), huge));
+            hi_x = most(hi_x, chosen(there, Lanes::load(bounds.hi_x + i), low));
+            lo_y = least(lo_y, chosen(there, Lanes::load(bounds.lo_y + i), huge));
+            hi_y = most(hi_y, chosen(there, Lanes::load(bounds.hi_y + i), low));
+            depth = least(depth, chosen(there, Lanes::load(bounds.depth + i), huge));
         }
         all[0] = smallest(lo_x);
         all[1] = largest(hi_x);

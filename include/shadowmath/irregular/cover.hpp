@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Which samples of a tile the triangles of a chunk cover. First the pixels whose bounds are out of a triangle's reach
-// are left out; the others are held against the four planes of its shadow volume; samples are looked at last, in pixels
-// that a plane crosses. Tiles are queued, so that what they need of memory is asked for before it is used; and each step
-// is done for all triangles of a tile before the next, so that none waits for what is found of another.
+// Which samples of their tiles the triangles of a chunk cover. First the pixels whose bounds are out of a triangle's
+// reach are left out; the others are held against the four planes of its shadow volume; samples are looked at last, in
+// pixels that a plane crosses. Tiles are queued, so that what they need of memory is asked for before it is used; and
+// each step is done for all pairs of the queue before the next: a pair waits for no other, and loops are long.
 #pragma once
 
 #include <shadowmath/config.hpp>
@@ -20,14 +20,6 @@ namespace shadowmath {
 inline namespace v0 {
 
 namespace detail {
-
-inline void fetch_soon(void const* line) noexcept {
-#if defined(__GNUC__)
-    __builtin_prefetch(line);
-#else
-    static_cast<void>(line);
-#endif
-}
 
 template <class Lanes, class T = typename Lanes::Scalar>
 struct CoverKernel {
@@ -94,7 +86,8 @@ struct CoverKernel {
         for (std::uint32_t i = 0; i < crossings; ++i) {
             std::uint32_t const n = crossing[i], tile = pairs.tile[n];
             std::uint32_t* const state = state_of(tile);
-            state[alive_at] &= ~darken(quads_of(tile), raised[pairs.slot[n]], pairs.here[n], pairs.pixels[n], state + mask_at);
+            state[alive_at] &=
+                ~darken(quads_of(tile), raised[pairs.slot[n]], pairs.here[n], pairs.pixels[n], state + mask_at);
         }
     }
 
@@ -136,26 +129,27 @@ struct CoverKernel {
         pairs.count = kept;
     }
 
-    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is no
-    // more than a tile's worth.
+    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is
+    // no more than a tile's worth.
     void place(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t first, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
         auto const all = [](Real value) { return Wide::all(value); };
-        Wide const x = all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) -
-                           Real(frame.width) / Real(2));
-        Wide const y = all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) -
-                           Real(frame.height) / Real(2));
+        Wide const x =
+            all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2));
+        Wide const y =
+            all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2));
         Wide const q = all(Real(surface_of(tile)[tile_q_at]));
         for (std::uint32_t n = first; n < pairs.count; n += 4) {
             // Past the last, the tile's first once more.
             RaisedTriangle<T> const* four[4];
             for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : first];
-            auto const rows = [&four](Real const (RaisedTriangle<T>::*plane)[4]) {
+            auto const rows = [&four](Real const(RaisedTriangle<T>::*plane)[4]) {
                 Real const* const row[4] = {four[0]->*plane, four[1]->*plane, four[2]->*plane, four[3]->*plane};
                 return Wide::rows(row);
             };
             using Raised = RaisedTriangle<T>;
-            Lanes::narrow(fused(rows(&Raised::x), x, fused(rows(&Raised::y), y, fused(rows(&Raised::b), q, rows(&Raised::a)))))
+            Lanes::narrow(
+                fused(rows(&Raised::x), x, fused(rows(&Raised::y), y, fused(rows(&Raised::b), q, rows(&Raised::a)))))
                 .store(pairs.here[n]);
         }
     }
@@ -181,8 +175,7 @@ struct CoverKernel {
         std::uint32_t behind = 0;
         for (std::uint32_t n = 0; n < pairs.count; ++n) {
             std::uint32_t const pixels =
-                pairs.pixels[n] &
-                touched(lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], 0, pairs.here[n]));
+                pairs.pixels[n] & touched(lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], 0, pairs.here[n]));
             pairs.pixels[n] = pixels;
             crossing[behind] = n;
             behind += pixels != 0 ? 1u : 0u;
