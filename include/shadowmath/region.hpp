@@ -470,10 +470,10 @@ template <class T>
     int const whole = ordinary && count > 0 ? count / n * n : 0;
     if (whole > 0) detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, boxes, whole / n, bounds});
     if (ordinary && count > whole) {
-        // What is left of a block, filled up with empty boxes.
+        // What is left of a block, filled up with copies of its first box, which change nothing.
         T ends[6][n];
         for (int i = 0; i < n; ++i) {
-            Aabb<T> const box = whole + i < count ? box_at(boxes, whole + i) : Aabb<T>{Vec3<T>(T(1)), Vec3<T>(T(0))};
+            Aabb<T> const box = box_at(boxes, whole + i < count ? whole + i : whole);
             for (int axis = 0; axis < 3; ++axis) ends[axis][i] = box.lo[axis], ends[axis + 3][i] = box.hi[axis];
         }
         BoxArrays<T> const rest{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 using namespace shadowmath;
@@ -105,11 +106,19 @@ TYPED_TEST(DepthRangeOf, AFacePiercedInItsMiddleIsTheNearestWhicheverAxisItIsOf)
             Vec3<T> eye(1, 2, 3), forward(0), up(0);
             eye[axis] = T(-50) * side;
             forward[axis] = side;
+            forward[(axis + 1) % 3] = T(0.1);
+            forward[(axis + 2) % 3] = T(-0.2);
             up[(axis + 1) % 3] = T(1);
             auto const view = perspective_view(pose_looking(eye, forward, up), T(0.1), T(1), T(1), T(60));
             auto const range = depths_inside(room, view);
             ASSERT_TRUE(range.visible);
-            EXPECT_TRUE(this->close(range.lo, 20)) << axis << ' ' << double(side) << ' ' << double(range.lo);
+            T nearest = T(60);
+            for (T const x : {view.left, view.right})
+                for (T const y : {view.bottom, view.top}) {
+                    Vec3<T> const edge = view.pose.forward + view.pose.right * x + view.pose.up * y;
+                    nearest = std::min(nearest, T(20) / (edge[axis] * side));
+                }
+            EXPECT_TRUE(this->close(range.lo, nearest)) << axis << ' ' << double(side) << ' ' << double(range.lo);
             EXPECT_TRUE(this->close(range.hi, 60));
         }
 }

@@ -23,6 +23,8 @@ void expect_four_numbers() {
         EXPECT_EQ(least(x, y)[i], a[i] < b[i] ? a[i] : b[i]);
         EXPECT_EQ(largest(x, y)[i], a[i] > b[i] ? a[i] : b[i]);
         EXPECT_EQ(detail::all_four(T(3))[i], T(3));
+        EXPECT_EQ(where_at_most(x, y, x + y, x - y)[i], a[i] <= b[i] ? a[i] + b[i] : a[i] - b[i]);
+        EXPECT_EQ(root(x * x)[i], a[i] < T(0) ? -a[i] : a[i]);
     }
 }
 
