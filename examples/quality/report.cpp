@@ -107,7 +107,7 @@ constexpr char const* page_head = R"(<!doctype html>
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 84rem; padding: 0 1rem; color: #222; }
 h1 { font-weight: 600; } table { border-collapse: collapse; width: 100%; }
 td, th { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid #ddd; font-variant-numeric: tabular-nums; }
-td:first-child, th:first-child { text-align: left; white-space: nowrap; }
+td:first-child, th:first-child { text-align: left; } td { white-space: nowrap; }
 .folk { color: #888; } .chosen { font-weight: 600; }
 figure { margin: 1rem 0; display: grid; grid-template-columns: repeat(3, 1fr); gap: .5rem; }
 figure img { width: 100%; } figcaption { grid-column: 1 / -1; } .bar { fill: #8aa; } .bar.folk { fill: #ccc; }
