@@ -79,12 +79,20 @@ inline void slice_boxes(ViewVolume<float> const& view, glm::vec3 const& light, g
     }
 }
 
-// A symmetric perspective; the ball of a slice wider than it is deep lies on its far face. Coordinates in float.
+inline __m128d along_xy_in_double(Axes const& a, glm::vec3 const& v) {
+    __m128d const x = _mm_mul_pd(_mm_cvtps_pd(a.x), _mm_set1_pd(double(v.x)));
+    __m128d const y = _mm_mul_pd(_mm_cvtps_pd(a.y), _mm_set1_pd(double(v.y)));
+    return _mm_add_pd(_mm_add_pd(x, y), _mm_mul_pd(_mm_cvtps_pd(a.z), _mm_set1_pd(double(v.z))));
+}
+
+// A symmetric perspective; the ball of a slice wider than it is deep lies on its far face. Texels are counted in
+// double, as they must be: in float, a view a kilometre from the origin would be off by one, and its shadows crawl.
 inline void slice_spheres(ViewVolume<float> const& view, glm::vec3 const& light, float map_size, glm::mat4* maps) {
     float plane[5];
     four_splits(view.z_near, view.z_far, plane);
     Axes const a = axes(light);
     __m128 const eye = along(a, view.pose.position), forward = along(a, view.pose.forward);
+    __m128d const eye_xy = along_xy_in_double(a, view.pose.position);
     __m128 const x = _mm_mul_ps(along(a, view.pose.right), spread(view.right));
     __m128 const y = _mm_mul_ps(along(a, view.pose.up), spread(view.top));
     __m128 const no_sign = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
@@ -102,8 +110,9 @@ inline void slice_spheres(ViewVolume<float> const& view, glm::vec3 const& light,
             radius = root((f - depth) * (f - depth) + k2 * f * f);
         }
         float const texel = radius * per_radius, per_texel = 1.0f / texel;
-        __m128 const centre = _mm_mul_ps(_mm_add_ps(eye, _mm_mul_ps(forward, spread(depth))), spread(per_texel));
-        __m128 const window = _mm_cvtepi32_ps(_mm_cvtps_epi32(centre));
+        __m128d const ahead = _mm_cvtps_pd(_mm_mul_ps(forward, spread(depth)));
+        __m128d const centre = _mm_mul_pd(_mm_add_pd(eye_xy, ahead), _mm_set1_pd(double(per_texel)));
+        __m128 const window = _mm_cvtepi32_ps(_mm_cvtpd_epi32(centre));
         __m128 const lo = _mm_add_ps(eye, _mm_min_ps(_mm_mul_ps(spread(n), least), _mm_mul_ps(spread(f), least)));
         __m128 const hi = _mm_add_ps(eye, _mm_max_ps(_mm_mul_ps(spread(n), largest), _mm_mul_ps(spread(f), largest)));
         __m128 const deep = _mm_div_ps(spread(1.0f), _mm_add_ps(_mm_sub_ps(hi, lo), one_in_w));

@@ -9,6 +9,7 @@
 #include "examples/gallery/promises.hpp"
 #include "examples/gallery/results.hpp"
 #include "examples/gallery/run.hpp"
+#include "examples/gallery/speed.hpp"
 #include "examples/gallery/staging.hpp"
 #include "scenes/obj.hpp"
 
@@ -58,6 +59,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
             return parse_extent(text, 16, settings.extent) ? ""
                                                            : text + " is no size such as 960x540, 16 to 4096 a side";
         });
+    app.add_option("--ratios", settings.ratios, "the times that scripts/bench wrote, to be shown")
+        ->capture_default_str();
     app.add_flag("--validate", settings.validate,
                  "Vulkan under its validation layers; what they say stands in the notes");
     app.add_option("--flight", settings.flight, "frames of the camera's flight through each scene (300; quick: 12)")
@@ -71,7 +74,6 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         return 2;
     }
     if (size.empty() && settings.quick) settings.extent = {640, 360};
-    if (!size.empty()) parse_extent(size, 16, settings.extent);
     if (settings.scenes.empty()) settings.scenes = built_in;
     std::erase(settings.scenes, "none");
     if (!settings.models.empty() || !settings.scenes.empty()) return std::nullopt;
@@ -147,13 +149,14 @@ int judged(Backends backends, std::vector<std::string> const& broken) {
 }
 
 int make_gallery(Settings const& settings) {
+    std::string const speed = speed_table(settings.ratios);
     Staging staging(settings.out);
     auto const scenes = load_scenes(settings);
     auto const backends = open_backends(settings.backend, settings.validate);
     Results const results = run(settings, scenes, backends, staging.folder(), tell);
     std::string const json = results_json(settings, scenes, backends, results);
     write_text(staging.folder() / "results.json", json);
-    write_text(staging.folder() / "index.html", page(techniques(settings.quick), results, json));
+    write_text(staging.folder() / "index.html", page(techniques(settings.quick), results, json, speed));
     staging.publish();
     tell("wrote " + (settings.out / "index.html").string() + agreement(backends, results));
     return judged(backends, broken_promises(results));

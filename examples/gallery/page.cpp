@@ -27,13 +27,15 @@ std::string for_script(std::string const& json) {
 
 }  // namespace
 
-std::string page(std::span<Technique const> techniques, Results const& results, std::string const& json) {
+std::string page(std::span<Technique const> techniques, Results const& results, std::string const& json,
+                 std::string const& speed) {
     std::pair<std::string_view, std::string> const parts[] = {
         {"@STYLE@", page_css},
         {"@SCRIPT@", page_js},
         {"@TECHNIQUE_CHART@", technique_chart(techniques, results)},
         {"@SPLITS_CHART@", splits_chart()},
         {"@ALIASING_CHART@", aliasing_chart()},
+        {"@SPEED@", speed},
         {"@DATA@", for_script(json)},
     };
     std::string text = page_html;

@@ -10,6 +10,8 @@
 
 namespace shadowmath::gallery {
 
-[[nodiscard]] std::string page(std::span<Technique const> techniques, Results const& results, std::string const& json);
+// `speed` is HTML (speed.hpp).
+[[nodiscard]] std::string page(std::span<Technique const> techniques, Results const& results, std::string const& json,
+                               std::string const& speed);
 
 }  // namespace shadowmath::gallery

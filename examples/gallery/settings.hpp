@@ -16,7 +16,8 @@ struct Settings {
     std::vector<std::filesystem::path> models;  // OBJ files
     std::vector<std::string> scenes;            // built-in scenes by name
     std::filesystem::path out = "out/gallery";
-    std::string backend = "all";  // "egl", "osmesa", "vulkan" or "all"
+    std::filesystem::path ratios = "out/bench/ratios.json";  // of scripts/bench; need not be there
+    std::string backend = "all";                             // "egl", "osmesa", "vulkan" or "all"
     backend::Extent extent{960, 540};
     std::uint64_t seed = 1;
     bool quick = false;

@@ -9,14 +9,15 @@
 //     |  slice  |              pancake: lo is the first receiver instead. The renderer must turn depth clamp on
 //     |_________|   <- hi      (GL_DEPTH_CLAMP, depthClampEnable): casters above lo are then drawn flat at depth 0.
 //
-// Source: clipping the scene's box against the map's four sides is that of Microsoft's "Common techniques to improve
-// shadow depth maps". Departures: polygons for triangles, and boxes without an end are cut before they are computed
-// with.
+// Source: cutting the scene's box by the map's four sides is that of Microsoft's "Common techniques to improve shadow
+// depth maps". Departures: edges for triangles, four at a time, and boxes without an end are cut before they are
+// computed with.
 #pragma once
 
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/fit_box.hpp>
+#include <shadowmath/lanes.hpp>
 #include <shadowmath/light_box.hpp>
 #include <shadowmath/reach.hpp>
 #include <shadowmath/view_volume.hpp>
@@ -37,28 +38,6 @@ struct DepthRange {
 
 namespace detail {
 
-// A quadrilateral and what cutting by six planes can add: a corner each.
-template <class T>
-struct Polygon {
-    Vec3<T> at[10];
-    int count = 0;
-};
-
-// What is left where plane.xyz * p + plane.w >= 0; Sutherland and Hodgman 1974.
-template <class T>
-[[nodiscard]] inline Polygon<T> clipped(Polygon<T> const& whole, Vec4<T> const& plane) noexcept {
-    Polygon<T> part;
-    for (int i = 0; i < whole.count; ++i) {
-        Vec3<T> const &a = whole.at[i], &b = whole.at[i + 1 < whole.count ? i + 1 : 0];
-        T const above_a = glm::dot(Vec3<T>(plane), a) + plane.w, above_b = glm::dot(Vec3<T>(plane), b) + plane.w;
-        // NOTE: rounding can make a convex polygon cross a plane more than twice; the spare corners are dropped.
-        if (above_a >= T(0) && part.count < 10) part.at[part.count++] = a;
-        if ((above_a >= T(0)) != (above_b >= T(0)) && part.count < 10)
-            part.at[part.count++] = a + (b - a) * (above_a / (above_a - above_b));
-    }
-    return part;
-}
-
 // The six sides as planes whose positive half is inside.
 template <class T>
 [[nodiscard]] inline std::array<Vec4<T>, 6> inner_planes(ViewVolume<T> const& view) noexcept {
@@ -71,49 +50,113 @@ template <class T>
             view.top * spread - y,  depth - view.z_near * one, view.z_far * one - depth};
 }
 
+// Least and greatest depth of edges, four at a time.
+template <class T>
+struct DepthsOfEdges {
+    Lanes<T> lo, hi;
+
+    // From depth a to depth b, where first <= last.
+    [[gnu::always_inline]] void add(Lanes<T> const& a, Lanes<T> const& b, Lanes<T> const& first,
+                                    Lanes<T> const& last) noexcept {
+        lo = least(lo, where_at_most(first, last, least(a, b), lo));
+        hi = largest(hi, where_at_most(first, last, largest(a, b), hi));
+    }
+};
+
+// What is divided by: nothing that an edge is long is met along less.
+template <class T>
+[[nodiscard]] inline T divisor(T value) noexcept {
+    constexpr T tiny = T(1e-6) * std::numeric_limits<T>::epsilon();
+    return std::abs(value) >= tiny ? value : tiny;
+}
+
 }  // namespace detail
 
 // Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
 // box will do, however large; the volume must be finite. Not visible where they do not meet.
 //
-// The least and the greatest depth of the common part are at its corners, and those are corners of the volume inside
-// the box, or lie on the box's faces.
+// The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
+// enter and leave, or where the corner edges of the sides enter and leave the box. What lies between them is one piece:
+// near and far end only cut it off.
 template <class T>
 [[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
+    using Lanes = detail::Lanes<T>;
     if (!all_finite(box) || is_empty(box)) return {};
-    std::array<Vec3<T>, 8> const volume_corners = corners(volume);
+    auto const all = [](T value) { return Lanes::all(value); };
     constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
-    Aabb<T> const around = merge(bounds_of(volume_corners), volume.pose.position);
+    Pose<T> const& pose = volume.pose;
+    Aabb<T> const around = merge(bounds_of(corners(volume)), pose.position);
     // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
     T const reach = slack * detail::largest_of(around);
     Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
     if (is_empty(body)) return {};
-    T const largest = detail::largest_of(merge(body, volume.pose.position)), rounding = slack * largest;
-    DepthRange<T> range{volume.z_far, volume.z_near, false};
-    auto const reaches = [&](Vec3<T> const& point) {
-        T const depth = eye_depth(volume, point);
-        range.lo = depth < range.lo ? depth : range.lo;
-        range.hi = depth > range.hi ? depth : range.hi;
-        range.visible = true;
-    };
-    for (Vec3<T> const& corner : volume_corners)
-        if (contains(body, corner)) reaches(corner);
+    T const size = detail::largest_of(merge(body, pose.position)), rounding = slack * size;
     std::array<Vec4<T>, 6> planes = detail::inner_planes(volume);
-    for (Vec4<T>& plane : planes)
-        plane.w += slack * ((std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z)) * largest + std::abs(plane.w));
-    std::array<Vec3<T>, 8> const at = corners(body);
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        std::size_t const u = std::size_t(1) << (axis + 1) % 3, v = std::size_t(1) << (axis + 2) % 3;
-        for (std::size_t const first : {std::size_t(0), std::size_t(1) << axis}) {
-            detail::Polygon<T> face{{at[first], at[first + u], at[first + u + v], at[first + v]}, 4};
-            for (Vec4<T> const& plane : planes) face = detail::clipped(face, plane);
-            for (int i = 0; i < face.count; ++i) reaches(face.at[i]);
-        }
+    T wider[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        Vec4<T>& plane = planes[i];
+        T const growth = std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z);
+        wider[i] = slack * (growth * size + std::abs(plane.w));
+        plane.w += wider[i];
     }
-    if (!range.visible) return {};
-    range.lo = std::fmax(range.lo - rounding, volume.z_near);
-    range.hi = std::fmin(range.hi + rounding, volume.z_far);
-    return range;
+    constexpr T none = std::numeric_limits<T>::max();
+    detail::DepthsOfEdges<T> depths{all(none), all(-none)};
+    // The twelve edges of the box, four to an axis: `u` and `v` are where they are on the other two.
+    for (int axis = 0; axis < 3; ++axis) {
+        int const next = (axis + 1) % 3, after = (axis + 2) % 3;
+        Lanes const u = Lanes::of(body.lo[next], body.hi[next], body.lo[next], body.hi[next]);
+        Lanes const v = Lanes::of(body.lo[after], body.lo[after], body.hi[after], body.hi[after]);
+        Lanes first = all(body.lo[axis]), last = all(body.hi[axis]);
+        for (std::size_t i = 0; i < 4; ++i) {
+            Vec4<T> const& plane = planes[i];
+            T const inward = detail::divisor(plane[axis]);
+            Lanes const root = (u * all(plane[next]) + v * all(plane[after]) + all(plane.w)) * all(T(-1) / inward);
+            // It enters where it goes inward, and leaves where not.
+            if (inward > T(0))
+                first = largest(first, least(root, all(none)));
+            else
+                last = least(last, largest(root, all(-none)));
+        }
+        Vec3<T> const &eye = pose.position, &ahead = pose.forward;
+        Lanes const at = (u - all(eye[next])) * all(ahead[next]) + (v - all(eye[after])) * all(ahead[after]);
+        auto const depth = [&](Lanes const& along) {
+            // NOTE: of edges that are none, any depth does, as long as it is a number.
+            Lanes const on_edge = least(largest(along, all(body.lo[axis])), all(body.hi[axis]));
+            return (on_edge - all(eye[axis])) * all(ahead[axis]) + at;
+        };
+        depths.add(depth(first), depth(last), first, last);
+    }
+    // The corner edges of the four sides: (left, bottom), (right, bottom), (right, top), (left, top).
+    bool const flat = volume.kind == ViewKind::orthographic;
+    Lanes const x = Lanes::of(volume.left, volume.right, volume.right, volume.left);
+    Lanes const y = Lanes::of(volume.bottom, volume.bottom, volume.top, volume.top);
+    Lanes const wider_x = Lanes::of(-wider[0], wider[1], wider[1], -wider[0]);
+    Lanes const wider_y = Lanes::of(-wider[2], -wider[2], wider[3], wider[3]);
+    // Those of a perspective begin at the eye.
+    Lanes first = all(flat ? -none : T(0)), last = all(none);
+    for (int axis = 0; axis < 3; ++axis) {
+        Lanes const across = all(pose.right[axis]), upward = all(pose.up[axis]), sideways = x * across + y * upward;
+        Lanes from = all(pose.position[axis]) + (wider_x * across + wider_y * upward), step = all(pose.forward[axis]);
+        if (flat)
+            from = from + sideways;
+        else
+            step = step + sideways;
+        Lanes const tiny = all(T(1e-6) * std::numeric_limits<T>::epsilon());
+        Lanes const inverse = all(T(1)) / where_at_most(tiny, absolute(step), step, tiny);
+        Lanes const a = (all(body.lo[axis] - rounding) - from) * inverse;
+        Lanes const b = (all(body.hi[axis] + rounding) - from) * inverse;
+        first = largest(first, least(a, b));
+        last = least(last, largest(a, b));
+    }
+    depths.add(first, last, first, last);
+    T lo = depths.lo[0], hi = depths.hi[0];
+    for (int i = 1; i < 4; ++i) {
+        lo = depths.lo[i] < lo ? depths.lo[i] : lo;
+        hi = depths.hi[i] > hi ? depths.hi[i] : hi;
+    }
+    if (!(lo <= hi)) return {};
+    DepthRange<T> const range{std::fmax(lo - rounding, volume.z_near), std::fmin(hi + rounding, volume.z_far), true};
+    return range.lo <= range.hi ? range : DepthRange<T>{};
 }
 
 // Between lo and hi lies every receiver inside the sides and the slice, and, unless `pancake`, every caster above it.

@@ -26,20 +26,20 @@ namespace shadowmath {
 inline namespace v0 {
 
 struct GpuSampleFit {
-    Vec4<float> basis_x;      // w: z_near, metres of eye depth
-    Vec4<float> basis_y;      // w: z_far
-    Vec4<float> basis_depth;  // w: least ratio of a split
-    Vec4<float>
-        inverse_along;       // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
-    Vec4<float> eye;         // in light space; w: texels along a side of the map
-    Vec4<float> forward;     // of the eye, in light space; w: margin as a share of the body's extent
-    Vec4<float> right;       // w: 1 / (usable texels - 1), for still maps
-    Vec4<float> up;          // w: what the depth buffer is cleared to
-    Vec4<float> first_step;  // sides at the centre of pixel (0, 0), and from pixel to pixel
-    Vec4<float> casters_lo;  // world
-    Vec4<float> casters_hi;
-    Vec4<float> depth_code;  // numerator's scale and offset, denominator's scale and offset
-    Vec4<float> bias;        // of BiasOptions: flat_texels, texels, steepest, depth_step
+    Vec4<float> basis_x{0.0f};      // w: z_near, metres of eye depth
+    Vec4<float> basis_y{0.0f};      // w: z_far
+    Vec4<float> basis_depth{0.0f};  // w: least ratio of a split
+    // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
+    Vec4<float> inverse_along{0.0f};
+    Vec4<float> eye{0.0f};         // in light space; w: texels along a side of the map
+    Vec4<float> forward{0.0f};     // of the eye, in light space; w: margin as a share of the body's extent
+    Vec4<float> right{0.0f};       // w: 1 / (usable texels - 1), for still maps
+    Vec4<float> up{0.0f};          // w: what the depth buffer is cleared to
+    Vec4<float> first_step{0.0f};  // sides at the centre of pixel (0, 0), and from pixel to pixel
+    Vec4<float> casters_lo{0.0f};  // world
+    Vec4<float> casters_hi{0.0f};
+    Vec4<float> depth_code{0.0f};  // numerator's scale and offset, denominator's scale and offset
+    Vec4<float> bias{0.0f};        // of BiasOptions: flat_texels, texels, steepest, depth_step
     Mat4<float> clip_from_canonical{1.0f};
     std::int32_t width = 0;  // pixels
     std::int32_t height = 0;
@@ -83,28 +83,30 @@ struct SampleSplitOptions {
 //
 // `camera` and `camera_clip` are what the depth buffer was drawn with; samples from shadow_distance on get no shadow
 // (0: camera.z_far). Inputs with faults give count = 0, and the shaders make no map.
-[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<float> const& camera, ClipSpace camera_clip,
-                                                 float shadow_distance, Light<float> const& light, int width,
-                                                 int height, Aabb<float> const& casters,
-                                                 SampleSplitOptions<float> const& splits,
-                                                 SampleFitOptions<float> const& options,
-                                                 BiasOptions<float> const& bias = {}) noexcept {
+// NOTE: a template for float alone, so that it costs nothing to compile where it is not called.
+template <class T>
+[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<T> const& camera, ClipSpace camera_clip, T shadow_distance,
+                                                 Light<T> const& light, int width, int height, Aabb<T> const& casters,
+                                                 SampleSplitOptions<T> const& splits,
+                                                 SampleFitOptions<T> const& options,
+                                                 BiasOptions<T> const& bias = {}) noexcept {
+    static_assert(std::numeric_limits<T>::digits == 24, "shaders compute in float");
     GpuSampleFit fit;
     bool const cut = all_finite(&shadow_distance, 1) && shadow_distance > 0.0f;
-    float const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
-    SampleRays<float> const rays = sample_rays(camera, light, width, height);
-    DepthCode<float> const code = depth_code(camera, camera_clip);
+    T const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
+    SampleRays<T> const rays = sample_rays(camera, light, width, height);
+    DepthCode<T> const code = depth_code(camera, camera_clip);
     Faults const faults = faults_of_margin(options.map_size, options.margin_texels);
     bool const usable = rays.usable && !no_depths(camera.z_near, z_far).faults.any() && all_finite(casters) &&
                         !is_empty(casters) && !faults.has(Fault::not_finite) && !faults.has(Fault::map_too_small);
     if (!usable) return fit;
 
-    float const size = static_cast<float>(options.map_size);
-    float const usable_size = usable_texels(options.map_size, options.margin_texels);
-    constexpr float eps = std::numeric_limits<float>::epsilon();
+    T const size = static_cast<T>(options.map_size);
+    T const usable_size = usable_texels(options.map_size, options.margin_texels);
+    constexpr T eps = std::numeric_limits<T>::epsilon();
     Vec4<float> inverse_along(0.0f);
     for (int k = 0; k < 3; ++k)
-        if (std::abs(rays.basis.depth[k]) > detail::least_along<float>) inverse_along[k] = 1.0f / rays.basis.depth[k];
+        if (std::abs(rays.basis.depth[k]) > detail::least_along<T>) inverse_along[k] = 1.0f / rays.basis.depth[k];
     inverse_along.w = splits.blend > 0.0f ? (splits.blend < 1.0f ? splits.blend : 1.0f) : 0.0f;
     fit.basis_x = Vec4<float>(rays.basis.x, camera.z_near);
     fit.basis_y = Vec4<float>(rays.basis.y, z_far);
@@ -115,14 +117,14 @@ struct SampleSplitOptions {
     fit.right = Vec4<float>(rays.right, 1.0f / (usable_size - 1.0f) * (1.0f + 4.0f * eps));
     fit.up = Vec4<float>(rays.up, code.sky);
     fit.first_step = Vec4<float>(rays.first.x, rays.first.y, rays.step.x, rays.step.y);
-    Vec3<float> const farthest(detail::farthest_metres<float>);
-    Aabb<float> const reached = intersect(casters, Aabb<float>{-farthest, farthest});
+    Vec3<T> const farthest(detail::farthest_metres<T>);
+    Aabb<T> const reached = intersect(casters, Aabb<T>{-farthest, farthest});
     fit.casters_lo = Vec4<float>(reached.lo, 0.0f);
     fit.casters_hi = Vec4<float>(reached.hi, 0.0f);
     fit.depth_code = Vec4<float>(code.num_scale, code.num_offset, code.den_scale, code.den_offset);
     fit.bias = Vec4<float>(detail::option(bias.flat_texels, 0.0f), detail::option(bias.texels, 0.0f),
                            detail::option(bias.steepest, 20.0f), detail::option(bias.depth_step, 0.0f));
-    fit.clip_from_canonical = clip_from_canonical<float>(options.clip);
+    fit.clip_from_canonical = clip_from_canonical<T>(options.clip);
     fit.width = width;
     fit.height = height;
     fit.count = splits.count < 0 ? 0 : (splits.count > max_splits ? max_splits : splits.count);

@@ -28,11 +28,16 @@ namespace detail {
 
 template <class T>
 struct Lanes {
+    static constexpr int fours = 1;
     T at[4];
 
     [[nodiscard]] static Lanes of(T a, T b, T c, T d) noexcept { return {{a, b, c, d}}; }
+    [[nodiscard]] static Lanes all(T a) noexcept { return {{a, a, a, a}}; }
     [[nodiscard]] T operator[](int i) const noexcept { return at[i]; }
 
+    friend Lanes absolute(Lanes const& a) noexcept {
+        return {{std::abs(a.at[0]), std::abs(a.at[1]), std::abs(a.at[2]), std::abs(a.at[3])}};
+    }
     friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept {
         return {{a.at[0] + b.at[0], a.at[1] + b.at[1], a.at[2] + b.at[2], a.at[3] + b.at[3]}};
     }
@@ -68,12 +73,23 @@ struct Lanes {
 
 template <>
 struct Lanes<float> {
+    static constexpr int fours = 1;
     using Register [[gnu::vector_size(16)]] = float;
     Register at;
 
     [[nodiscard]] static Lanes of(float a, float b, float c, float d) noexcept { return {Register{a, b, c, d}}; }
+    [[nodiscard]] static Lanes all(float a) noexcept { return {Register{a, a, a, a}}; }
     [[nodiscard]] float operator[](int i) const noexcept { return at[i]; }
 
+    friend Lanes absolute(Lanes const& a) noexcept {
+        using Bits [[gnu::vector_size(16)]] = std::uint32_t;
+        Bits bits;
+        std::memcpy(&bits, &a, sizeof bits);
+        bits &= 0x7fffffffu;
+        Lanes made;
+        std::memcpy(&made, &bits, sizeof bits);
+        return made;
+    }
     friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept { return {a.at + b.at}; }
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
@@ -113,11 +129,11 @@ template <class T>
     return Lanes<T>::of(four[1], four[2], four[3], after);
 }
 
-// Rows for columns.
-template <class T>
-inline void transpose(Lanes<T> (&rows)[4]) noexcept {
-    Lanes<T> const a = rows[0], b = rows[1], c = rows[2], d = rows[3];
-    for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
+// The places a, b, c and d of the four; 4 to 7 are those of `more`.
+template <int a, int b, int c, int d, class T>
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four, Lanes<T> const& more) noexcept {
+    auto const at = [&](int i) { return i < 4 ? four[i] : more[i - 4]; };
+    return Lanes<T>::of(at(a), at(b), at(c), at(d));
 }
 
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
@@ -129,6 +145,10 @@ public:
     }
     // Parts of unit vectors: 2 and more is beyond, as the rounding that is allowed for would be too little.
     void look_at_parts(Lanes<T> const& four) noexcept { look_at(four * Lanes<T>::of(big, big, big, big)); }
+    // Whatever is finite is within reach.
+    void look_for_finite(Lanes<T> const& four) noexcept {
+        for (int i = 0; i < 4; ++i) beyond_ |= all_finite(&four.at[i], 1) ? 0 : ~decltype(beyond_)(0);
+    }
     [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
 
 private:
@@ -144,16 +164,9 @@ template <>
     return {__builtin_shufflevector(four.at, Lanes<float>::Register{after}, 1, 2, 3, 4)};
 }
 
-template <>
-inline void transpose(Lanes<float> (&rows)[4]) noexcept {
-    auto const a = __builtin_shufflevector(rows[0].at, rows[1].at, 0, 4, 1, 5);
-    auto const b = __builtin_shufflevector(rows[2].at, rows[3].at, 0, 4, 1, 5);
-    auto const c = __builtin_shufflevector(rows[0].at, rows[1].at, 2, 6, 3, 7);
-    auto const d = __builtin_shufflevector(rows[2].at, rows[3].at, 2, 6, 3, 7);
-    rows[0].at = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-    rows[1].at = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-    rows[2].at = __builtin_shufflevector(c, d, 0, 1, 4, 5);
-    rows[3].at = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+template <int a, int b, int c, int d>
+[[nodiscard]] inline Lanes<float> picked(Lanes<float> const& four, Lanes<float> const& more) noexcept {
+    return {__builtin_shufflevector(four.at, more.at, a, b, c, d)};
 }
 #endif
 
@@ -170,6 +183,11 @@ public:
         std::memcpy(&bits, &four, sizeof bits);
         beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40000000u);
     }
+    void look_for_finite(Lanes<float> const& four) noexcept {
+        Bits bits;
+        std::memcpy(&bits, &four, sizeof bits);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x7f800000u);
+    }
     [[nodiscard]] bool any() const noexcept {
         std::uint64_t halves[2];
         std::memcpy(halves, &beyond_, sizeof halves);
@@ -182,6 +200,22 @@ private:
 };
 
 #endif
+
+template <int a, int b, int c, int d, class T>
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four) noexcept {
+    return picked<a, b, c, d>(four, four);
+}
+
+// Rows for columns.
+template <class T>
+inline void transpose(Lanes<T> (&rows)[4]) noexcept {
+    Lanes<T> const a = picked<0, 4, 1, 5>(rows[0], rows[1]), b = picked<0, 4, 1, 5>(rows[2], rows[3]);
+    Lanes<T> const c = picked<2, 6, 3, 7>(rows[0], rows[1]), d = picked<2, 6, 3, 7>(rows[2], rows[3]);
+    rows[0] = picked<0, 1, 4, 5>(a, b);
+    rows[1] = picked<2, 3, 6, 7>(a, b);
+    rows[2] = picked<0, 1, 4, 5>(c, d);
+    rows[3] = picked<2, 3, 6, 7>(c, d);
+}
 
 template <class T>
 [[nodiscard]] inline Lanes<T> four_at(T const* values) noexcept {

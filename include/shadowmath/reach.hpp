@@ -25,14 +25,20 @@ inline constexpr T farthest_metres = T(1e18);
 template <class T>
 inline constexpr T least_metres = T(1e-18);
 
+// std::fmax of what is not negative; without a call of it, which is what compilers make of that one.
+template <class T>
+[[nodiscard]] inline T larger(T a, T b) noexcept {
+    return b < a || b != b ? a : b;
+}
+
 template <class T>
 [[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
-    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
+    return larger(std::abs(v.x), larger(std::abs(v.y), std::abs(v.z)));
 }
 
 template <class T>
 [[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
-    return std::fmax(largest_of(box.lo), largest_of(box.hi));
+    return larger(largest_of(box.lo), largest_of(box.hi));
 }
 
 // The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above

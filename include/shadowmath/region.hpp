@@ -226,13 +226,16 @@ struct BoundsOfBoxes {
     // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
     enum class Kind { all_full, some_empty, beyond_reach };
 
+    // As much as all coordinates of a box together.
+    [[gnu::always_inline]] static T size_of(BoxArrays<T> const& at, int i) noexcept {
+        return std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) + std::abs(at.hi_y[i]) +
+               std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]);
+    }
     [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at,
                                                std::uint32_t (&taken)[bodies_at_once]) noexcept {
         decltype(beyond_reach(T(0))) beyond = 0;
         std::uint32_t all_taken = ~0u;
-        for (int i = 0; i < n; ++i)
-            beyond |= beyond_reach(std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) +
-                                   std::abs(at.hi_y[i]) + std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]));
+        for (int i = 0; i < n; ++i) beyond |= beyond_reach(size_of(at, i));
         if (beyond >> (8 * sizeof beyond - 1) != 0) return Kind::beyond_reach;
         for (int i = 0; i < n; ++i) {
             taken[i] = full(at, i) ? ~0u : 0u;
@@ -284,8 +287,58 @@ struct BoundsOfBoxes {
             bounds = merge(bounds, Aabb<T>{(merged.lo + offset) / matrix[3][3], (merged.hi + offset) / matrix[3][3]});
     }
 
+    // A side of what is known: a box does not reach beyond x / w = h where x - h w, which is linear, is negative at its
+    // farthest corner. No quotient is needed for that.
+    struct Side {
+        T x, y, z, offset;
+        T growth;               // by what the rounding of a quotient can make of it, for every metre of `size`
+        bool hi_x, hi_y, hi_z;  // where the farthest corner is
+    };
+    void take_sides(Aabb<T> const& known, Side (&sides)[6]) const noexcept {
+        auto const magnitude = [](Vec4<T> const& v) {
+            return glm::max(glm::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+        };
+        constexpr T unsure = T(16) * std::numeric_limits<T>::epsilon();
+        Vec4<T> const below = row(matrix, 3);
+        for (int i = 0; i < 6; ++i) {
+            Vec4<T> const above = row(matrix, i / 2);
+            T const h = i % 2 == 0 ? known.lo[i / 2] : known.hi[i / 2], further = std::abs(h);
+            Vec4<T> const beyond = (above - below * h) * (i % 2 == 0 ? T(-1) : T(1));
+            T const offset = beyond.w + unsure * (std::abs(above.w) + further * std::abs(below.w));
+            sides[i] = {beyond.x,
+                        beyond.y,
+                        beyond.z,
+                        offset,
+                        unsure * (magnitude(above) + further * magnitude(below)),
+                        beyond.x > T(0),
+                        beyond.y > T(0),
+                        beyond.z > T(0)};
+        }
+    }
+    // Whether a box of the block that is `taken` may reach beyond a side.
+    [[gnu::always_inline]] bool may_extend(Side const (&sides)[6], BoxArrays<T> const& at,
+                                           std::uint32_t const (&taken)[bodies_at_once]) const noexcept {
+        T size[bodies_at_once];
+        for (int i = 0; i < n; ++i) size[i] = size_of(at, i);
+        for (Side const& side : sides) {
+            T const* const x = side.hi_x ? at.hi_x : at.lo_x;
+            T const* const y = side.hi_y ? at.hi_y : at.lo_y;
+            T const* const z = side.hi_z ? at.hi_z : at.lo_z;
+            T const a = side.x, b = side.y, c = side.z, growth = side.growth, offset = side.offset;
+            std::uint32_t may = 0;
+            for (int i = 0; i < n; ++i) {
+                T const beyond = a * x[i] + b * y[i] + c * z[i] + (growth * size[i] + offset);
+                may |= beyond > T(0) ? taken[i] : 0u;
+            }
+            if (may != 0) return true;
+        }
+        return false;
+    }
+
     [[gnu::always_inline]] void perspective() const noexcept {
         BoundsInBlocks<T> so_far;
+        // Of what is known after the first 64 blocks, and after 128, 256, ... It does not pay sooner.
+        Side sides[6];
         T inverse[8][bodies_at_once];
         std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
         for (int block = 0; block < blocks; ++block) {
@@ -309,6 +362,13 @@ struct BoundsOfBoxes {
                 inverse[4][i] = T(1) / (xy00 + w.z1), inverse[5][i] = T(1) / (xy10 + w.z1);
                 inverse[6][i] = T(1) / (xy01 + w.z1), inverse[7][i] = T(1) / (xy11 + w.z1);
             }
+            if (any_astride != 0)
+                for (int i = 0; i < n; ++i)
+                    if (astride[i] != 0) add_astride(at, i);
+            if (block >= 64) {
+                if ((block & (block - 1)) == 0) take_sides(merge(bounds, so_far.merged()), sides);
+                if (!may_extend(sides, at, taken)) continue;
+            }
             for (int r = 0; r < 3; ++r) {
                 Vec4<T> const above = row(matrix, r);
                 for (int i = 0; i < n; ++i) {
@@ -325,9 +385,6 @@ struct BoundsOfBoxes {
                     so_far.add(r, i, taken[i], least, most);
                 }
             }
-            if (any_astride != 0)
-                for (int i = 0; i < n; ++i)
-                    if (astride[i] != 0) add_astride(at, i);
         }
         bounds = merge(bounds, so_far.merged());
     }
@@ -341,31 +398,39 @@ struct BoundsOfBoxes {
             for (int k = 0; k < 4; ++k) corner[r][k] = xy[k] + p.z0, corner[r][k + 4] = xy[k] + p.z1;
         }
         constexpr T largest = std::numeric_limits<T>::max();
-        Vec3<T> lo = bounds.lo, hi = bounds.hi;
-        auto const extend = [](T value, T& least, T& most) {
-            T const kept = value < -largest ? -largest : (value > largest ? largest : value);
-            least = kept < least ? kept : least;
-            most = kept > most ? kept : most;
-        };
+        T lo[3] = {largest, largest, largest}, hi[3] = {-largest, -largest, -largest};
         auto const add = [&](T x, T y, T z, T per_w) {
-            extend(x * per_w, lo.x, hi.x);
-            extend(y * per_w, lo.y, hi.y);
-            extend(z * per_w, lo.z, hi.z);
+            T const ndc[3] = {x * per_w, y * per_w, z * per_w};
+            for (int r = 0; r < 3; ++r) {
+                lo[r] = ndc[r] < lo[r] ? ndc[r] : lo[r];
+                hi[r] = ndc[r] > hi[r] ? ndc[r] : hi[r];
+            }
         };
+        unsigned front = 0;
         for (int k = 0; k < 8; ++k) {
             above[k] = corner[3][k] - w_min;
-            if (above[k] >= T(0)) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
+            front |= above[k] >= T(0) ? 1u << k : 0u;
         }
+        for (int k = 0; k < 8; ++k)
+            if ((front >> k & 1u) != 0) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
         T const per_w = T(1) / w_min;
-        for (int bit = 1; bit < 8; bit <<= 1)
+        constexpr unsigned lower_ends[3] = {0x55, 0x33, 0x0f};
+        for (int axis = 0; axis < 3; ++axis) {
+            unsigned const through = (front ^ front >> (1 << axis)) & lower_ends[axis];
             for (int k = 0; k < 8; ++k) {
-                int const j = k | bit;
-                if (j == k || (above[k] >= T(0)) == (above[j] >= T(0))) continue;
+                if ((through >> k & 1u) == 0) continue;
+                int const j = k | 1 << axis;
                 T const t = above[k] / (above[k] - above[j]), rest = T(1) - t;
                 add(corner[0][k] * rest + corner[0][j] * t, corner[1][k] * rest + corner[1][j] * t,
                     corner[2][k] * rest + corner[2][j] * t, per_w);
             }
-        bounds = {lo, hi};
+        }
+        // Numbers that are too large for the type are the largest.
+        for (int r = 0; r < 3; ++r) {
+            T const least = lo[r] < -largest ? -largest : lo[r], most = hi[r] > largest ? largest : hi[r];
+            bounds.lo[r] = least < bounds.lo[r] ? least : bounds.lo[r];
+            bounds.hi[r] = most > bounds.hi[r] ? most : bounds.hi[r];
+        }
     }
 
     // Whatever they are.

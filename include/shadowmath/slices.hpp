@@ -41,8 +41,9 @@ struct ViewInLight {
     Lanes<T> eye_hi;    // and the largest
     Lanes<T> slope_lo;  // by which they grow with depth
     Lanes<T> slope_hi;
-    Lanes<T> forward;
-    T rounding_slope;  // by which the rounding of a coordinate grows with depth
+    Lanes<T> eye, forward, right, up;  // the view's pose
+    T sides;                           // how far they are from the middle, all together
+    T rounding_slope;                  // by which the rounding of a coordinate grows with depth
 };
 
 template <class T>
@@ -77,11 +78,12 @@ template <class T>
     Pose<T> const& pose = view.pose;
     Lanes<T> const eye = along(pose.position), forward = along(pose.forward);
     Lanes<T> const right = along(pose.right), up = along(pose.up);
-    seen.forward = forward;
+    seen.eye = eye, seen.forward = forward, seen.right = right, seen.up = up;
     Lanes<T> const a = right * all_four(view.left), b = right * all_four(view.right);
     Lanes<T> const c = up * all_four(view.bottom), d = up * all_four(view.top);
     Lanes<T> const lo = least(a, b) + least(c, d), hi = largest(a, b) + largest(c, d);
     T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
+    seen.sides = sides;
     constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
     if (view.kind == ViewKind::orthographic) {
         Lanes<T> const rounding = all_four(unit * (absolute_sum(pose.position) + sides));

@@ -156,7 +156,7 @@ int every_function() noexcept {
     count += keep(&by_depth<T>, &by_map<T>, &blended<T>, &shade<T>);
     count +=
         keep(&sample_rays<T>, &from_eye<T>, &is_served<T>, &eighth_of_octave_up<T>, &light_entry<T>, &fit_samples<T>);
-    count += keep(&depth_code<T>, &decoded_depth<T>, &gpu_sample_fit);
+    count += keep(&depth_code<T>, &decoded_depth<T>, &gpu_sample_fit<float>);
     count += keep(&texture_from_world<T>);
     count += keep(&bound_slices<T>, &fit_slice_focus<T>, &fit_slice_boxes_of<T>);
     count += keep(&fit_slice_boxes<T>, &fit_slice_spheres<T>, &clip_points<T>, &box_at<T>, &boxes_from<T>);

@@ -102,6 +102,17 @@ TEST(BoxSamples, ARayThatMissesABoxHasNoSpan) {
     EXPECT_TRUE(misses(0, 0, Aabb<double>{})) << "empty";
 }
 
+TEST(BoxSamples, ARayAlongAnAxisIsInABoxThatHoldsItOnTheOthers) {
+    auto const span = [](V3 lo, V3 hi) { return depths_in_box(some_view(), 0.0, 0.0, Aabb<double>{lo, hi}); };
+    EXPECT_LT(span(V3(-1, -1, -9), V3(1, 1, -5)).first, span(V3(-1, -1, -9), V3(1, 1, -5)).last);
+    for (double const side : {-1.0, 1.0}) {
+        auto const x = span(V3(3 * side - 1, -1, -9), V3(3 * side + 1, 1, -5));
+        auto const y = span(V3(-1, 3 * side - 1, -9), V3(1, 3 * side + 1, -5));
+        EXPECT_GT(x.first, x.last);
+        EXPECT_GT(y.first, y.last);
+    }
+}
+
 TEST(BoxSamples, EveryGuessIsInABoxAndInTheView) {
     Boxes const boxes{{V3(-8, -3, -40), V3(-2, 6, -12)}, {V3(1, -4, -90), V3(30, -2, -5)}, wall(80, 400)};
     ViewVolume<double> view = some_view();

@@ -162,6 +162,21 @@ TEST(FitQuad, ATexelOfABoxIsAsLongAsItsLongerSide) {
     EXPECT_NEAR(major_at(box({-2, -1}, {2, 1}), 1000.0, sample), 1.0, 1e-12) << "seen edge-on along x";
 }
 
+TEST(FitQuad, ATexelThatIsAsWideAsItIsLongHasThatLength) {
+    LightSample<double> sample;
+    sample.gain_x = V2(0.5, 0);
+    sample.gain_y = V2(0, 0.5);
+    EXPECT_NEAR(major_at(box({-1, -1}, {1, 1}), 1.0, sample), 1.0, 1e-12) << "two metres at half a pixel each";
+}
+
+TEST(FitQuad, TheFrameReachesToTheEndsOfTheCells) {
+    LightSample<double> const sample = sample_at({3, 4}, {0.5, 0.25});
+    std::uint16_t const list[] = {0, 0, 0};
+    SampleFrame<double> const frame = frame_of(&sample, list, 3);
+    EXPECT_NEAR(glm::length(frame.a - V2(2, 0)), 0.0, 1e-12);
+    EXPECT_NEAR(glm::length(frame.b - V2(0, 4)), 0.0, 1e-12);
+}
+
 TEST(FitQuad, TheMajorAxisIsTheLongestImageOfAnyTexelLength) {
     Quad<double> const quad =
         quad_between(QuadSides<double>{V3(1, 0.2, 3), V3(-1, 0.1, 4.9), V3(0.1, 1, 2), V3(-0.2, -1, 4.2)});

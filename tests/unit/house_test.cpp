@@ -75,12 +75,12 @@ TEST(House, TheReadmeShowsCodeThatCompiles) {
 }
 
 TEST(House, HeadersIncludeGlmAndLightStandardHeadersOnly) {
-    std::set<std::string> const light = {"array",       "cmath",   "cstddef",
-                                         "cstdint",     "cstring", "limits",
-                                         "glm/glm.hpp", "cassert", "shadowmath_user_config.hpp"};
+    std::set<std::string> const light = {"array",   "cmath",  "cstddef", "cstdint",
+                                         "cstring", "limits", "cassert", "shadowmath_user_config.hpp"};
     for (fs::path const& header : sources_under("include/shadowmath"))
         for (std::string const& included : includes_of(header))
             EXPECT_TRUE(light.count(included) == 1 || included.rfind("shadowmath/", 0) == 0 ||
+                        (included.rfind("glm/", 0) == 0 && header.filename() == "config.hpp") ||
                         (included == "immintrin.h" && header.filename() == "x86_lanes.hpp"))
                 << header << " includes " << included;
 }
@@ -193,7 +193,8 @@ TEST(House, EveryHeaderHasLawsOrAUnitTest) {
                                                      {"casters", "trace"},
                                                      {"cover", "trace"},
                                                      {"plain_lanes", "irregular_lanes"},
-                                                     {"x86_lanes", "irregular_lanes"}};
+                                                     {"x86_lanes", "irregular_lanes"},
+                                                     {"slice_edges", "slices_in_scene"}};
     for (fs::path const& header : sources_under("include/shadowmath")) {
         std::string name = header.stem().string();
         if (part_of.count(name) != 0) name = part_of.at(name);

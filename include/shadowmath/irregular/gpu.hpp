@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -78,9 +79,12 @@ static_assert(sizeof(GpuIrregular) == 336);
 
 // Faults leave `gpu` as it was: those of the frame and the light, bad_projection where the grid is not a map of this
 // light, map_too_small for a grid outside [1, largest_grid].
-[[nodiscard]] inline Faults gpu_irregular(PixelFrame<float> const& frame, Light<float> const& light,
-                                          ShadowMap<float> const& grid, int map_size, GpuIrregular& gpu) noexcept {
-    IrregularBuffer<float> buffer;
+// NOTE: a template for float alone, so that it costs nothing to compile where it is not called.
+template <class T>
+[[nodiscard]] inline Faults gpu_irregular(PixelFrame<T> const& frame, Light<T> const& light, ShadowMap<T> const& grid,
+                                          int map_size, GpuIrregular& gpu) noexcept {
+    static_assert(std::numeric_limits<T>::digits == 24, "shaders compute in float");
+    IrregularBuffer<T> buffer;
     buffer.frame = frame;
     buffer.map_size = map_size;
     Faults faults = frame.faults | faults_of(light);
@@ -88,7 +92,7 @@ static_assert(sizeof(GpuIrregular) == 336);
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
-    auto const three = [](Vec3<float> const& v) { return GpuFloat3{v.x, v.y, v.z}; };
+    auto const three = [](Vec3<T> const& v) { return GpuFloat3{v.x, v.y, v.z}; };
     bool const flat = frame.kind == ViewKind::orthographic;
     filled.frame = {three(frame.eye),       frame.width,
                     three(frame.across),    frame.height,
@@ -101,7 +105,7 @@ static_assert(sizeof(GpuIrregular) == 336);
     filled.parallel = buffer.light.parallel ? 1 : 0;
     filled.source = three(buffer.light.parallel ? light.direction : light.position);
     for (int i = 0; i < 4; ++i) {
-        PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
+        PixelPlane<T> const plane = detail::plane_of_row(frame, buffer.row[i]);
         filled.row[i] = buffer.row[i];
         filled.seen[i] = Vec4<float>(plane.x, plane.y, plane.a, plane.b);
     }
@@ -112,7 +116,7 @@ static_assert(sizeof(GpuIrregular) == 336);
     filled.ray = buffer.contact_ray;
     filled.reach = buffer.contact_reach;
     filled.contact_metres = buffer.contact_reach;
-    filled.contact_share = contact_share<float>;
+    filled.contact_share = contact_share<T>;
     filled.w_min = grid.w_min > 0.0f ? grid.w_min : 0.0f;
     filled.map_size = map_size;
     gpu = filled;

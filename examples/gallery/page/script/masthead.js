@@ -30,6 +30,6 @@ function navigation() {
   if (ways.length) links.push(["#ways", "Ways"]);
   if (flights.length) links.push(["#flight", "Under way"]);
   if (data.close_ups.length) links.push(["#close-ups", "Close-ups"]);
-  links.push(["#claims", "Claims"], ["#theory", "Theory"], ["#records", "Records"], ["#method", "Method"]);
+  links.push(["#claims", "Claims"], ["#theory", "Theory"], ["#speed", "Speed"], ["#records", "Records"], ["#method", "Method"]);
   for (const [href, text] of links) byId("nav").append(element("a", { href }, text));
 }

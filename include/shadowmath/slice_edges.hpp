@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: MIT
+//
+// The edges of a view's slices and of a box in it, cut and bounded in light space: the inside of slices_in_scene.hpp.
+//
+// The corners of what a slice and a box have in common are where edges of one end, inside the other, or pass through
+// its faces. So nothing but edges is clipped, each once for all slices, four at a time:
+//
+//   four corner rays of the view     to the box, then to the depths of every slice
+//   four sides of each split plane   to the box; they belong to the slices on either side
+//   twelve edges of the box          to the four sides of the view, then to the depths of every slice
+//
+// Source: ours. Edges instead of faces, as in polytope.hpp, but none is ever new.
+#pragma once
+
+#include <shadowmath/bounds.hpp>
+#include <shadowmath/config.hpp>
+#include <shadowmath/lanes.hpp>
+#include <shadowmath/long_lanes.hpp>
+#include <shadowmath/slices.hpp>
+#include <shadowmath/view_volume.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Several vectors at a time.
+template <class L>
+struct Vectors {
+    L x, y, z;
+
+    [[gnu::always_inline]] friend Vectors operator+(Vectors const& a, Vectors const& b) noexcept {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    [[gnu::always_inline]] friend Vectors operator*(Vectors const& a, L const& s) noexcept {
+        return {a.x * s, a.y * s, a.z * s};
+    }
+    [[gnu::always_inline]] friend Vectors least(Vectors const& a, Vectors const& b) noexcept {
+        return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
+    }
+    [[gnu::always_inline]] friend Vectors largest(Vectors const& a, Vectors const& b) noexcept {
+        return {largest(a.x, b.x), largest(a.y, b.y), largest(a.z, b.z)};
+    }
+};
+
+template <class T>
+using FourVectors = Vectors<Lanes<T>>;
+template <class T>
+using LongVectors = Vectors<LongLanes<T>>;
+
+// Multiples of one vector.
+template <class L, class T>
+[[nodiscard, gnu::always_inline]] inline Vectors<L> times(L const& s, Vec3<T> const& v) noexcept {
+    return {s * L::all(v.x), s * L::all(v.y), s * L::all(v.z)};
+}
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline LongVectors<T> repeated(FourVectors<T> const& v) noexcept {
+    using Long = LongLanes<T>;
+    return {repeated<Long>(v.x), repeated<Long>(v.y), repeated<Long>(v.z)};
+}
+
+// Least and largest light-space coordinates of edges.
+template <class L>
+struct ExtentInLanes {
+    Vectors<L> lo;
+    Vectors<L> hi;
+
+    [[gnu::always_inline]] void add(ExtentInLanes const& other) noexcept {
+        lo = least(lo, other.lo);
+        hi = largest(hi, other.hi);
+    }
+};
+
+// Half a step along edges, and how long that is along each axis.
+template <class L>
+struct HalfStep {
+    Vectors<L> step;
+    Vectors<L> size;
+};
+
+// NOTE: no size is zero: an edge that is none must be seen on every axis.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline HalfStep<LongLanes<T>> half_of(FourVectors<T> const& step) noexcept {
+    Lanes<T> const half = all_four(T(0.5)), tiny = all_four(T(1e-18));
+    FourVectors<T> const halved = step * half;
+    auto const size = [&tiny](Lanes<T> const& a) { return absolute(a) + tiny; };
+    return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
+}
+
+// What edges, from `origin` on, reach between a and b: around their middle, by half their length. Where a > b an edge
+// is none, and its extent is inside out by more than anything can be long.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
+                                                                    L const& a, L const& b) noexcept {
+    Vectors<L> const middle = origin + half.step * (a + b);
+    L const length = where_at_most(a, b, b - a, L::all(-3e38f));
+    Vectors<L> const reach = half.size * length;
+    return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
+}
+
+// Metres along edges at which they enter and leave the box between two of its faces, for edges whose origin lies
+// `shift` farther along.
+template <class L>
+struct Passage {
+    L enter, leave;
+
+    [[gnu::always_inline]] void cut(L const& shift, L& first, L& last) const noexcept {
+        first = largest(first, enter - shift);
+        last = least(last, leave - shift);
+    }
+};
+
+// Edges from `from` on; `inverse`: metres along them for one across.
+// NOTE: products before differences: one difference serves all that are parallel, and is as near as that of rounded
+// places can be.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline Passage<L> passage(L const& lo, L const& hi, L const& from,
+                                                            L const& inverse) noexcept {
+    L const a = lo * inverse, b = hi * inverse, shift = from * inverse;
+    return {least(a, b) - shift, largest(a, b) - shift};
+}
+
+// Nothing is divided by less than this. Planes are some epsilon of the view's reach farther out than they are: along
+// what leans less, none of them is met within a million times the length of an edge.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
+    Lanes<T> const tiny = all_four(T(1e-6) * std::numeric_limits<T>::epsilon());
+    return where_at_most(tiny, absolute(value), value, tiny);
+}
+
+// A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
+// at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
+template <class T>
+struct ViewOfBox {
+    Pose<T> const* pose;
+    ViewInLight<T> lit;
+    Lanes<T> slope;
+    Lanes<T> offset;
+    Lanes<T> lo;  // x, y, z
+    Lanes<T> hi;
+    T slack;
+};
+
+// False where the numbers are none that products of three can be made of, or nothing is there. After look(), which has
+// seen that the view is finite and filled in `lit`.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline bool look_at_box(ViewVolume<T> const& view, T farthest, Aabb<T> const& scene,
+                                                          ViewOfBox<T>& seen) noexcept {
+    using Lanes = Lanes<T>;
+    constexpr T most = T(1e12);
+    Vec3<T> const& eye = view.pose.position;
+    T const x = std::abs(eye.x), y = std::abs(eye.y), z = std::abs(eye.z), sides = seen.lit.sides;
+    bool const flat = view.kind == ViewKind::orthographic;
+    T const reach = flat ? farthest + sides : farthest * (T(1) + sides);
+    if (!((x <= most) & (y <= most) & (z <= most) & (sides <= most) & (reach <= most))) return false;
+    BeyondReach<T> infinite;
+    Lanes lo, hi;
+    if constexpr (sizeof scene == 6 * sizeof(T)) {
+        lo = four_at(&scene.lo.x);
+        hi = moved_up(four_at(&scene.lo.z), T(0));
+    } else {
+        lo = Lanes::of(scene.lo.x, scene.lo.y, scene.lo.z, T(0));
+        hi = Lanes::of(scene.hi.x, scene.hi.y, scene.hi.z, T(0));
+    }
+    infinite.look_for_finite(lo);
+    infinite.look_for_finite(hi);
+    if (infinite.any() || is_empty(scene)) return false;
+    auto const size_of = [](Vec3<T> const& v) { return absolute(Lanes::of(v.x, v.y, v.z, T(0))); };
+    Lanes const axes = size_of(view.pose.right) + size_of(view.pose.up) + size_of(view.pose.forward) +
+                       (absolute(seen.lit.x) + absolute(seen.lit.y) + absolute(seen.lit.z));
+    if (!(axes[0] + axes[1] + axes[2] <= T(12))) return false;  // six unit vectors sum up to less
+    seen.slack = T(16) * std::numeric_limits<T>::epsilon() * (reach + (x + y + z));
+    Lanes const of_side = four_at(&view.left), slack = all_four(seen.slack);
+    Lanes const outward = Lanes::of(-seen.slack, seen.slack, -seen.slack, seen.slack);
+    if (flat) {
+        seen.slope = all_four(T(0));
+        seen.offset = of_side + outward;
+    } else {
+        seen.slope = of_side;
+        // A plane that leans is moved farther along its side than outward.
+        seen.offset = outward * (all_four(T(1)) + absolute(of_side));
+    }
+    // Nothing of the view is farther from the eye along any axis than twice its reach.
+    T const limit = T(2) * reach;
+    auto const limited = [limit](Lanes const& at) { return largest(least(at, all_four(limit)), all_four(-limit)); };
+    Lanes const at_eye = Lanes::of(eye.x, eye.y, eye.z, T(0));
+    seen.lo = limited(lo - at_eye - slack);
+    seen.hi = limited(hi - at_eye + slack);
+    return true;
+}
+
+// The twelve edges of the box, four to an axis, from its lower face on; and four more that mean nothing. An edge is
+// inside the sides of the view from `first` to `last` metres behind its origin. (x, y, z): origin in light space;
+// ahead: metres along the edge that its depth in the view amounts to.
+template <class T>
+struct EdgesOfBox {
+    T first[16], last[16], ahead[16], x[16], y[16], z[16];
+    Lanes<T> per_ahead;  // of each axis: metres along it for one of depth
+};
+
+// Where an axis has its four edges: at the lower (0) or the upper (1) end of the others.
+template <class T>
+inline constexpr T edge_at[3][16] = {{0, 0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0},
+                                     {0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0},
+                                     {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0}};
+
+template <int i>
+struct Place {
+    static constexpr int value = i;
+};
+
+// Lane i everywhere.
+template <int i, class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> all_of(Lanes<T> const& four) noexcept {
+    return picked<i, i, i, i>(four);
+}
+template <int i, class T>
+[[nodiscard, gnu::always_inline]] inline LongLanes<T> long_of(Lanes<T> const& four) noexcept {
+    return repeated<LongLanes<T>>(all_of<i>(four));
+}
+
+template <class T>
+[[gnu::always_inline]] inline void cut_box_edges(ViewOfBox<T> const& seen, EdgesOfBox<T>& edges) noexcept {
+    using Long = LongLanes<T>;
+    using Lanes = Lanes<T>;
+    auto const four = [](Vec3<T> const& v) { return Lanes::of(v.x, v.y, v.z, T(0)); };
+    // By how much each axis goes inward through each side, metres a metre.
+    Lanes const right = four(seen.pose->right), up = four(seen.pose->up), ahead = four(seen.pose->forward);
+    Lanes const inward[4] = {right - ahead * all_of<0>(seen.slope), ahead * all_of<1>(seen.slope) - right,
+                             up - ahead * all_of<2>(seen.slope), ahead * all_of<3>(seen.slope) - up};
+    // An edge enters where it goes inward, and leaves where not: what it does not do is moved out of the way.
+    constexpr T away = T(1e38);
+    Lanes inverse[4], not_entered[4], not_left[4];
+    for (int i = 0; i < 4; ++i) {
+        Lanes const in = not_zero(inward[i]);
+        inverse[i] = all_four(T(-1)) / in;
+        not_entered[i] = where_at_most(in, all_four(T(0)), all_four(-away), all_four(T(0)));
+        not_left[i] = not_entered[i] + all_four(away);
+    }
+    Lanes const length = seen.hi - seen.lo;
+    Long const lo_x = long_of<0>(seen.lo), lo_y = long_of<1>(seen.lo), lo_z = long_of<2>(seen.lo);
+    Long const hi_x = long_of<0>(seen.hi), hi_y = long_of<1>(seen.hi), hi_z = long_of<2>(seen.hi);
+    edges.per_ahead = all_four(T(1)) / not_zero(ahead);
+    for (int axis = 0; axis < 3; axis += Long::fours) {
+        auto const end = [&](int i, Long const& lo, Long const& hi) {
+            return where_at_most(long_at<Long>(edge_at<T>[i] + 4 * axis), Long::all(T(0)), lo, hi);
+        };
+        Long const x = end(0, lo_x, hi_x), y = end(1, lo_y, hi_y), z = end(2, lo_z, hi_z);
+        auto const along = [&](Lanes const& v) { return x * long_of<0>(v) + y * long_of<1>(v) + z * long_of<2>(v); };
+        Long const inside[4] = {along(inward[0]) - long_of<0>(seen.offset), along(inward[1]) + long_of<1>(seen.offset),
+                                along(inward[2]) - long_of<2>(seen.offset), along(inward[3]) + long_of<3>(seen.offset)};
+        Long first = Long::all(T(0)), last = spread<Long>(length, axis);
+        auto const cut = [&](int i) {
+            Long const root = inside[i] * spread<Long>(inverse[i], axis);
+            first = largest(first, root + spread<Long>(not_entered[i], axis));
+            last = least(last, root + spread<Long>(not_left[i], axis));
+        };
+        cut(0), cut(1), cut(2), cut(3);
+        auto const store = [axis](T* to, Long const& lanes) { std::memcpy(to + 4 * axis, &lanes, sizeof lanes); };
+        auto const lit = [&](auto place) {
+            constexpr int i = decltype(place)::value;
+            return x * long_of<i>(seen.lit.x) + y * long_of<i>(seen.lit.y) + z * long_of<i>(seen.lit.z);
+        };
+        store(edges.first, first);
+        store(edges.last, last);
+        store(edges.ahead, along(ahead) * spread<Long>(edges.per_ahead, axis));
+        store(edges.x, lit(Place<0>()));
+        store(edges.y, lit(Place<1>()));
+        store(edges.z, lit(Place<2>()));
+    }
+}
+
+// Least and largest coordinates of four edges in each of four slices.
+template <class T>
+struct ExtentsOfSlices {
+    T lo[3][16], hi[3][16];
+};
+
+// All edges of four slices and the box, from plane[0] to plane[4].
+template <class T>
+struct EdgesInLight {
+    using Four = Lanes<T>;
+    using Long = LongLanes<T>;
+
+    Four nearest, farthest;  // planes of each slice
+    Four begins, ends;       // and a little farther apart
+    EdgesOfBox<T> of_box;
+    HalfStep<Long> along[3];  // its axes
+    Four enter[3], leave[3];  // where the slices begin and end along them, had their edges no depth of their own
+    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top). Rays through them from depth 0.
+    LongVectors<T> from, ray;
+    HalfStep<Long> along_ray;
+    Long first_of_ray, last_of_ray;
+    // Sides of a split plane, from corner to corner: right, up, left, down; `length` metres at depth 0, `growth` more
+    // for every metre of depth, and their origins `shift` farther along them.
+    HalfStep<Long> along_side;
+    Passage<Long> side_in_x, side_in_y, side_in_z;
+    LongVectors<T> shift;
+    Long growth, length;
+
+    [[gnu::always_inline]] EdgesInLight(ViewOfBox<T> const& seen, T const* plane) noexcept {
+        auto const all = [](T value) { return all_four(value); };
+        auto const lit = [](Four const& v) { return FourVectors<T>{all_of<0>(v), all_of<1>(v), all_of<2>(v)}; };
+        Vec3<T> const &right = seen.pose->right, &up = seen.pose->up, &ahead = seen.pose->forward;
+        // NOTE: one by one, as they have mostly just been written.
+        nearest = Four::of(plane[0], plane[1], plane[2], plane[3]), farthest = moved_up(nearest, plane[4]);
+        begins = nearest - all(seen.slack), ends = farthest + all(seen.slack);
+        cut_box_edges(seen, of_box);
+        along[0] = half_of<T>(lit(seen.lit.x)), along[1] = half_of<T>(lit(seen.lit.y));
+        along[2] = half_of<T>(lit(seen.lit.z));
+        for (int axis = 0; axis < 3; ++axis) {
+            Four const per_ahead = all(of_box.per_ahead[axis]), a = begins * per_ahead, b = ends * per_ahead;
+            enter[axis] = least(a, b), leave[axis] = largest(a, b);
+        }
+        Four const x_slope = picked<0, 1, 1, 0>(seen.slope), y_slope = picked<2, 2, 3, 3>(seen.slope);
+        Four const x_offset = picked<0, 1, 1, 0>(seen.offset), y_offset = picked<2, 2, 3, 3>(seen.offset);
+        FourVectors<T> const right_lit = lit(seen.lit.right), up_lit = lit(seen.lit.up);
+        FourVectors<T> const corner = times(x_offset, right) + times(y_offset, up);
+        FourVectors<T> const outward = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
+        FourVectors<T> const outward_lit = right_lit * x_slope + up_lit * y_slope + lit(seen.lit.forward);
+        from = repeated<T>(right_lit * x_offset + up_lit * y_offset), ray = repeated<T>(outward_lit);
+        along_ray = half_of<T>(outward_lit);
+        FourVectors<T> const lo = lit(seen.lo), hi = lit(seen.hi);
+        Four const one = all(T(1));
+        Passage<Four> const x = passage(lo.x, hi.x, corner.x, one / not_zero(outward.x));
+        Passage<Four> const y = passage(lo.y, hi.y, corner.y, one / not_zero(outward.y));
+        Passage<Four> const z = passage(lo.z, hi.z, corner.z, one / not_zero(outward.z));
+        first_of_ray = repeated<Long>(largest(x.enter, largest(y.enter, z.enter)));
+        last_of_ray = repeated<Long>(least(x.leave, least(y.leave, z.leave)));
+        Four const sideways = Four::of(T(1), T(0), T(-1), T(0)), upward = Four::of(T(0), T(1), T(0), T(-1));
+        FourVectors<T> const side = times(sideways, right) + times(upward, up);
+        along_side = half_of<T>(right_lit * sideways + up_lit * upward);
+        Four const per_x = one / not_zero(side.x), per_y = one / not_zero(side.y), per_z = one / not_zero(side.z);
+        auto const sides = [](Passage<Four> const& p) {
+            return Passage<Long>{repeated<Long>(p.enter), repeated<Long>(p.leave)};
+        };
+        side_in_x = sides(passage(lo.x, hi.x, corner.x, per_x)),
+        side_in_y = sides(passage(lo.y, hi.y, corner.y, per_y));
+        side_in_z = sides(passage(lo.z, hi.z, corner.z, per_z));
+        shift = repeated<T>(FourVectors<T>{outward.x * per_x, outward.y * per_y, outward.z * per_z});
+        auto const apart = [](Four const& of) { return picked<1, 3, 1, 3>(of) - picked<0, 2, 0, 2>(of); };
+        growth = repeated<Long>(apart(seen.slope)), length = repeated<Long>(apart(seen.offset));
+    }
+
+    // Planes are where they are: the box that their sides are cut by is larger.
+    [[nodiscard, gnu::always_inline]] ExtentInLanes<Long> of_sides(Long const& depth) const noexcept {
+        Long first = Long::all(T(0)), last = growth * depth + length;
+        side_in_x.cut(shift.x * depth, first, last);
+        side_in_y.cut(shift.y * depth, first, last);
+        side_in_z.cut(shift.z * depth, first, last);
+        return extent_of(from + ray * depth, along_side, first, last);
+    }
+
+    // For slices from i on; the far plane of one is the near plane of the next.
+    [[gnu::always_inline]] void bound(int i, ExtentInLanes<Long>& sides, ExtentsOfSlices<T>& of) const noexcept {
+        ExtentInLanes<Long> extent = sides;
+        if (Long::fours > 1) extent = of_sides(spread<Long>(nearest, i));
+        sides = of_sides(spread<Long>(farthest, i));
+        extent.add(sides);
+        extent.add(extent_of(from, along_ray, largest(first_of_ray, spread<Long>(begins, i)),
+                             least(last_of_ray, spread<Long>(ends, i))));
+        auto const add_edges = [&](int axis) {
+            auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
+            Long const ahead = at(of_box.ahead);
+            Long const first = largest(at(of_box.first), spread<Long>(enter[axis], i) - ahead);
+            Long const last = least(at(of_box.last), spread<Long>(leave[axis], i) - ahead);
+            extent.add(extent_of({at(of_box.x), at(of_box.y), at(of_box.z)}, along[axis], first, last));
+        };
+        add_edges(0), add_edges(1), add_edges(2);
+        auto const store = [i](T* to, Long const& lanes) { std::memcpy(to + 4 * i, &lanes, sizeof lanes); };
+        store(of.lo[0], extent.lo.x), store(of.lo[1], extent.lo.y), store(of.lo[2], extent.lo.z);
+        store(of.hi[0], extent.hi.x), store(of.hi[1], extent.hi.y), store(of.hi[2], extent.hi.z);
+    }
+};
+
+template <class T>
+[[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, T const* plane,
+                                                     ExtentsOfSlices<T>& of) noexcept {
+    using Long = LongLanes<T>;
+    EdgesInLight<T> const edges(seen, plane);
+    ExtentInLanes<Long> sides = edges.of_sides(Long::all(plane[0]));
+    // NOTE: no loop: compilers would keep what it needs in registers that they have not.
+    edges.bound(0, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(1, sides, of);
+    if constexpr (Long::fours <= 2) edges.bound(2, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(3, sides, of);
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
