@@ -104,10 +104,11 @@ namespace {
 constexpr char const* page_head = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>shadowmath: picture truth at an equal budget</title>
 <meta name="viewport" content="width=device-width"><style>
-body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem; color: #222; }
+body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 84rem; padding: 0 1rem; color: #222; }
 h1 { font-weight: 600; } table { border-collapse: collapse; width: 100%; }
 td, th { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid #ddd; font-variant-numeric: tabular-nums; }
-td:first-child, th:first-child { text-align: left; } .folk { color: #888; } .chosen { font-weight: 600; }
+td:first-child, th:first-child { text-align: left; } td { white-space: nowrap; }
+.folk { color: #888; } .chosen { font-weight: 600; }
 figure { margin: 1rem 0; display: grid; grid-template-columns: repeat(3, 1fr); gap: .5rem; }
 figure img { width: 100%; } figcaption { grid-column: 1 / -1; } .bar { fill: #8aa; } .bar.folk { fill: #ccc; }
 .bar.chosen { fill: #2a7; } text { font-size: 12px; } .scale { height: 1rem; width: 16rem; vertical-align: middle; }
@@ -195,12 +196,15 @@ std::string heat_maps_of(Results const& results) {
 std::string page(Settings const& settings, Results const& results) {
     std::vector<Summary> const all = summaries(results);
     std::string text = page_head;
-    text +=
-        formatted("<h1>Picture truth at an equal budget</h1><p>%zu views of %d &times; %d pixels; %d maps of %d "
-                  "&times; %d texels for everybody, one bias rule, one filter (3 &times; 3). A pixel is wrong when it "
-                  "is on the other side of the light than ray tracing says, and no true edge is within a pixel and a "
-                  "quarter. Recipes choose a map by eye depth, everything else by what holds the point.</p>\n",
-                  results.views.size(), settings.extent.width, settings.extent.height, map_count, map_size, map_size);
+    text += formatted(
+        "<h1>Picture truth at an equal budget</h1><p>%zu views of %d &times; %d pixels; %d maps of %d "
+        "&times; %d texels for everybody, one bias rule, one filter (3 &times; 3). A pixel is wrong when it "
+        "is on the other side of the light than ray tracing says, and no true edge is within a pixel and a "
+        "quarter. Recipes choose a map by eye depth, everything else by what holds the point.</p>\n"
+        "<p>A footprint is perspective aliasing times cos(eye) / cos(light), which is the surface's own and has no "
+        "bound where the light grazes it; perspective alone is what maps decide. Texels are used where the "
+        "filter reads them for the pixels' centres, seen where it would for points all over the pixels.</p>\n",
+        results.views.size(), settings.extent.width, settings.extent.height, map_count, map_size, map_size);
     for (std::string const& what : results.absent)
         text += "<p><b>Absent, not studied:</b> " + example::escaped(what) + "</p>";
     return text + bars_of(all) + rows_of(all) + heat_maps_of(results) + "</body></html>\n";

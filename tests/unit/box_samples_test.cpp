@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -221,19 +222,19 @@ TEST(BoxSamples, AreTheSameEachTimeWithoutTheHeap) {
 }
 
 TEST(BoxSamples, WithoutWeightsAreAsManyAsTheRayIsLikelyToEndThere) {
-    // A nearer wall holds half of the rays' ends, the ground behind the other half.
-    Boxes const boxes{wall(10, 14), wall(20, 24)};
-    Samples<double> const samples = samples_in_boxes(some_view(), morning, boxes.data(), 2);
+    // Of each ray's ends half are in the first wall, a quarter in the second, and all that are left in the last.
+    Boxes const boxes{wall(10, 14), wall(20, 24), wall(30, 34)};
+    Samples<double> const samples = samples_in_boxes(some_view(), morning, boxes.data(), 3);
     ASSERT_EQ(samples.count, max_samples);
-    int near_wall = 0, far_wall = 0;
+    std::array<int, 3> in{};
     for (int i = 0; i < samples.count; ++i) {
         auto const& sample = samples.at[std::size_t(i)];
-        near_wall += contains(boxes[0], sample.point) ? 1 : 0;
-        far_wall += contains(boxes[1], sample.point) ? 1 : 0;
+        for (std::size_t b = 0; b < 3; ++b) in[b] += contains(boxes[b], sample.point) ? 1 : 0;
         EXPECT_EQ(sample.normal, neutral_normal(some_view(), morning, sample.point));
     }
-    EXPECT_EQ(near_wall, max_samples / 2);
-    EXPECT_EQ(far_wall, max_samples / 2);
+    EXPECT_EQ(in[0], max_samples / 2);
+    EXPECT_EQ(in[1], max_samples / 4);
+    EXPECT_EQ(in[2], max_samples / 4);
     // The only box of a ray has them all.
     Samples<double> const alone = samples_in_boxes(some_view(), morning, boxes.data(), 1);
     EXPECT_EQ(alone.count, max_samples);
