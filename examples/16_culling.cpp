@@ -30,8 +30,7 @@ int main(int argc, char** argv) {
         std::vector<glm::dvec2> sides;
         for (std::size_t k = 0; k < 4; ++k)
             sides.push_back(above(first[k] + (last[k] - first[k]) * (first[k].y / (first[k].y - last[k].y))));
-        std::string const css_class = "c" + std::to_string(i);
-        drawing.area(sides, css_class);
+        drawing.area(sides, "c" + std::to_string(i));
     }
     int draws = 0, spared = 0;
     bool none_missed = true;
@@ -48,8 +47,8 @@ int main(int argc, char** argv) {
                 none_missed = none_missed && (casts || std::abs(at.x) > 1.0f || std::abs(at.y) > 1.0f || at.z > 1.0f);
             }
         }
-        std::string const css_class = "d" + std::to_string(first);
-        drawing.box(above({object.lo.x, 0, object.hi.z}), above({object.hi.x, 0, object.lo.z}), css_class);
+        drawing.box(above({object.lo.x, 0, object.hi.z}), above({object.hi.x, 0, object.lo.z}),
+                    "d" + std::to_string(first));
     }
     drawing.dot(above({0.4f, 0, 7.5f}), "d4", 5);
     drawing.label(above({0.4f, 0, 7.5f}), "eye", "end", {-8, 4}, "small");

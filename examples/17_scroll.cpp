@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
     auto const window = [&](double x, double z) { return sm::grid_window(basis, glm::dvec3(x, 0, z), 0.25, size); };
     auto const before = window(3.0, -2.0), after = window(4.0, -2.75);
     sm::Scroll const scroll = sm::scroll_between(before, after);
-    std::printf("the window moves by (%lld, %lld) texels\n", static_cast<long long>(scroll.x),
-                static_cast<long long>(scroll.y));
+    double const x = double(scroll.x), y = double(scroll.y);
+    std::printf("the window moves by (%.0f, %.0f) texels\n", x, y);
 
     // Each texel of the new window is either kept or drawn, exactly once.
     std::vector<int> times(size * size, 0);
@@ -26,22 +26,21 @@ int main(int argc, char** argv) {
     for (int i = 0; i < scroll.fresh.count; ++i) {
         sm::TexelRect const& rect = scroll.fresh.at[std::size_t(i)];
         fresh += rect.width * rect.height;
-        for (int y = rect.y; y < rect.y + rect.height; ++y)
-            for (int x = rect.x; x < rect.x + rect.width; ++x) ++times[std::size_t(y * size + x)];
+        for (int v = rect.y; v < rect.y + rect.height; ++v)
+            for (int u = rect.x; u < rect.x + rect.width; ++u) ++times[std::size_t(v * size + u)];
     }
     bool once = scroll.kept;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            std::int64_t const old_x = x + scroll.x, old_y = y + scroll.y;
-            bool const kept = old_x >= 0 && old_x < size && old_y >= 0 && old_y < size;
-            once = once && times[std::size_t(y * size + x)] + (kept ? 1 : 0) == 1;
+    for (int v = 0; v < size; ++v)
+        for (int u = 0; u < size; ++u) {
+            std::int64_t const old_u = u + scroll.x, old_v = v + scroll.y;
+            bool const kept = old_u >= 0 && old_u < size && old_v >= 0 && old_v < size;
+            once = once && times[std::size_t(v * size + u)] + (kept ? 1 : 0) == 1;
         }
     std::printf("%d of %d texels are drawn anew\n", fresh, size * size);
     proof.that(once, "Each texel is kept or drawn, exactly once.");
 
     sm::example::Drawing drawing("The window moves; and where its texels lie in the map", {-2, -2.5}, {46, 22}, 720);
     drawing.box({0, 0}, {size, size}, "ground");
-    double const x = double(scroll.x), y = double(scroll.y);
     drawing.box({x, y}, {x + size, y + size}, "ink");
     drawing.box({26, 0}, {26 + size, size}, "ground");
     for (int i = 0; i < scroll.fresh.count; ++i) {

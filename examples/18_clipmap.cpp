@@ -56,8 +56,7 @@ int main(int argc, char** argv) {
     for (auto const& [page, pixels] : asked) {
         auto const& [level, x, y] = page;
         double const metres = double(windows.level[std::size_t(level)].texel_metres) * options.page_texels;
-        std::string const css_class = "c" + std::to_string(level % 4);
-        drawing.box(metres * glm::dvec2(x, y), metres * glm::dvec2(x + 1, y + 1), css_class);
+        drawing.box(metres * glm::dvec2(x, y), metres * glm::dvec2(x + 1, y + 1), "c" + std::to_string(level % 4));
     }
     for (int level = 0; level < windows.count; ++level) {
         auto const& grid = windows.level[std::size_t(level)];

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     bool inside = true;
     for (auto const& pixel : seen)
         for (int c = 0; c < fitted.count; ++c) {
-            if (!(pixel.eye_depth >= fitted.at[c].range.begin && pixel.eye_depth < fitted.at[c].range.end)) continue;
+            if (!sm::is_served(fitted.at[c].range, pixel.eye_depth)) continue;
             glm::vec4 const at = fitted.at[c].map.clip_from_world * glm::vec4(pixel.point, 1.0f);
             float const side = 1.0f - 2.0f * options.margin_texels / float(options.map_size) + 1e-4f;
             inside = inside && std::abs(at.x) <= side && std::abs(at.y) <= side;
@@ -48,15 +48,13 @@ int main(int argc, char** argv) {
         if (!(seen[i].eye_depth > 0.0f)) continue;
         int map = 0;
         while (map + 1 < fitted.count && seen[i].eye_depth >= fitted.at[map].range.end) ++map;
-        std::string const css_class = "d" + std::to_string(map);
-        drawing.dot(in_light(seen[i].point), css_class, 1.0);
+        drawing.dot(in_light(seen[i].point), "d" + std::to_string(map), 1.0);
     }
     for (int c = 0; c < fitted.count; ++c)
         for (auto const* maps : {&fitted, &stable}) {
             std::vector<glm::dvec2> sides;
             for (glm::vec3 const& p : sm::example::corners_at(maps->at[c].map, 0.5f)) sides.push_back(in_light(p));
-            std::string const css_class = "s" + std::to_string(c);
-            drawing.area(sides, maps == &fitted ? css_class : "dash");
+            drawing.area(sides, maps == &fitted ? "s" + std::to_string(c) : "dash");
         }
     drawing.write(proof.folder() / "sdsm.svg");
     bool smaller = true;

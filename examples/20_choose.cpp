@@ -52,8 +52,7 @@ int main(int argc, char** argv) {
             best = best && choice.judgement.all.mean <= mean * 1.02f;
             curve.emplace_back(tried.lambda, std::log2(mean));
         }
-        std::string const css_class = "s" + std::to_string(count - 1);
-        drawing.path(curve, css_class);
+        drawing.path(curve, "s" + std::to_string(count - 1));
         drawing.label(curve.back(), std::to_string(count) + (count == 1 ? " map" : " maps"), "start",
                       {6, count == 3 ? 12 : 2});
     }

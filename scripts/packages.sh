@@ -9,7 +9,7 @@ demo_packages=(
     libglm-dev                                                   # the only one that the headers need
     libegl-dev libgl-dev libopengl-dev libosmesa6-dev            # OpenGL, two ways into it
     libegl-mesa0 libgl1-mesa-dri                                 # and a software driver
-    libvulkan-dev mesa-vulkan-drivers                            # Vulkan, with a software driver
+    libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers         # Vulkan, loaded at run time, with a software driver
     glslang-tools spirv-tools                                    # its shaders, which OpenGL takes too
     libembree-dev                                                # the ray-traced truth
     libtinyobjloader-dev libpng-dev libcli11-dev nlohmann-json3-dev

@@ -7,7 +7,8 @@
 
 namespace shadowmath::backend {
 
-constexpr char const* sentence = "built without Vulkan; the Debian packages libvulkan-dev and glslang-tools bring it";
+constexpr char const* sentence =
+    "built without Vulkan; the Debian packages libvulkan-dev, libvulkan-volk-dev and glslang-tools bring it";
 
 std::unique_ptr<Backend> make_vulkan_backend(VulkanOptions const&) {
     throw std::runtime_error(sentence);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#define VOLK_IMPLEMENTATION
 #include "backends/vk/device.hpp"
 
 #include <algorithm>
@@ -12,6 +13,8 @@ namespace shadowmath::backend::vk {
 namespace {
 
 constexpr char const* validation_layer = "VK_LAYER_KHRONOS_validation";
+constexpr char const* no_loader =
+    "there is no Vulkan loader (libvulkan.so.1) here; the Debian package libvulkan1 brings it";
 constexpr char const* no_driver = "there is no Vulkan 1.1 driver with depth clamping here; the Debian package "
                                   "mesa-vulkan-drivers brings a software one";
 
@@ -121,6 +124,8 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags r
 }
 
 void Device::make_instance(bool validation) {
+    // At run time: a program with this backend starts where there is no Vulkan, and draws with another one.
+    if (volkInitialize() != VK_SUCCESS) throw std::runtime_error(no_loader);
     if (validation && !has_validation_layer())
         throw std::runtime_error(
             "the Vulkan validation layers are missing; the Debian package vulkan-validationlayers brings them");
@@ -153,6 +158,7 @@ void Device::make_instance(bool validation) {
     VkResult const result = vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw std::runtime_error(no_driver);
     demand(result, "make an instance");
+    volkLoadInstance(instance_);
     if (!validation) return;
     auto const create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));

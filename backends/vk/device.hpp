@@ -5,7 +5,7 @@
 
 #include "backends/vk/vk_backend.hpp"
 
-#include <vulkan/vulkan.h>
+#include <volk.h>
 
 #include <string>
 #include <vector>

@@ -11,7 +11,8 @@
 
 namespace shadowmath::backend::vk {
 
-template <class Handle, auto Destroy>
+// Destroy points to where the loader puts the function.
+template <class Handle, auto* Destroy>
 class Owned {
 public:
     Owned() = default;
@@ -29,7 +30,7 @@ public:
         return *this;
     }
     ~Owned() {
-        if (handle_ != Handle{}) Destroy(device_, handle_, nullptr);
+        if (handle_ != Handle{}) (*Destroy)(device_, handle_, nullptr);
     }
 
     operator Handle() const noexcept { return handle_; }
@@ -41,21 +42,21 @@ private:
     Handle handle_{};
 };
 
-using Memory = Owned<VkDeviceMemory, vkFreeMemory>;
-using BufferHandle = Owned<VkBuffer, vkDestroyBuffer>;
-using ImageHandle = Owned<VkImage, vkDestroyImage>;
-using ImageView = Owned<VkImageView, vkDestroyImageView>;
-using Sampler = Owned<VkSampler, vkDestroySampler>;
-using ShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
-using SetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
-using DescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
-using PipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
-using Pipeline = Owned<VkPipeline, vkDestroyPipeline>;
-using RenderPass = Owned<VkRenderPass, vkDestroyRenderPass>;
-using Framebuffer = Owned<VkFramebuffer, vkDestroyFramebuffer>;
-using CommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
-using Fence = Owned<VkFence, vkDestroyFence>;
-using QueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
+using Memory = Owned<VkDeviceMemory, &vkFreeMemory>;
+using BufferHandle = Owned<VkBuffer, &vkDestroyBuffer>;
+using ImageHandle = Owned<VkImage, &vkDestroyImage>;
+using ImageView = Owned<VkImageView, &vkDestroyImageView>;
+using Sampler = Owned<VkSampler, &vkDestroySampler>;
+using ShaderModule = Owned<VkShaderModule, &vkDestroyShaderModule>;
+using SetLayout = Owned<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout>;
+using DescriptorPool = Owned<VkDescriptorPool, &vkDestroyDescriptorPool>;
+using PipelineLayout = Owned<VkPipelineLayout, &vkDestroyPipelineLayout>;
+using Pipeline = Owned<VkPipeline, &vkDestroyPipeline>;
+using RenderPass = Owned<VkRenderPass, &vkDestroyRenderPass>;
+using Framebuffer = Owned<VkFramebuffer, &vkDestroyFramebuffer>;
+using CommandPool = Owned<VkCommandPool, &vkDestroyCommandPool>;
+using Fence = Owned<VkFence, &vkDestroyFence>;
+using QueryPool = Owned<VkQueryPool, &vkDestroyQueryPool>;
 
 struct Buffer {
     Memory memory;

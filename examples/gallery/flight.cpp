@@ -177,6 +177,8 @@ std::vector<Policy> policies(backend::Backend& backend, backend::Scene const& sc
             technique("vdsm-chosen", "View-dependent map on a chosen plane, uniform behind", 2, true),
             technique("sdsm", "Four maps fitted to samples", 4, true),
             technique("sdsm-still", "The same, texels of eight sizes an octave", 4, true),
+            technique("chosen-boxes", "Four maps where the boxes need them", 4, false),
+            technique("chosen-depth", "Four maps where the picture needs them", 4, true),
             cascades("chosen-still", "Chosen, nothing may move", chosen(Motion::still)),
             cascades("chosen", "Chosen, whatever is finest", chosen(Motion::any))};
 }

@@ -4,6 +4,7 @@
 // that shows it all.
 #include "backends/gl/gl_backend.hpp"
 #include "backends/vk/vk_backend.hpp"
+#include "examples/gallery/extent.hpp"
 #include "examples/gallery/page.hpp"
 #include "examples/gallery/promises.hpp"
 #include "examples/gallery/results.hpp"
@@ -15,7 +16,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <csignal>
 #include <fstream>
 #include <iostream>
@@ -31,19 +31,6 @@ struct Interrupted {};
 void tell(std::string const& line) {
     if (interrupted != 0) throw Interrupted{};
     std::cout << line << std::endl;
-}
-
-// "960x540", 16 to 4096 a side.
-bool parse_extent(std::string const& text, backend::Extent& extent) {
-    std::size_t const cross = text.find('x');
-    if (cross == std::string::npos) return false;
-    char const* const middle = text.data() + cross;
-    char const* const end = text.data() + text.size();
-    auto const width = std::from_chars(text.data(), middle, extent.width);
-    auto const height = std::from_chars(middle + 1, end, extent.height);
-    auto const fits = [](int side) { return side >= 16 && side <= 4096; };
-    return width.ec == std::errc{} && width.ptr == middle && height.ec == std::errc{} && height.ptr == end &&
-           fits(extent.width) && fits(extent.height);
 }
 
 // Fills settings. The program ends here with a status where there is nothing to run.
@@ -69,7 +56,8 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         ->capture_default_str();
     app.add_option("--size", size, "WIDTHxHEIGHT of the pictures (960x540; quick: 640x360)")
         ->check([&](std::string const& text) {
-            return parse_extent(text, settings.extent) ? "" : text + " is no size such as 960x540, 16 to 4096 a side";
+            return parse_extent(text, 16, settings.extent) ? ""
+                                                           : text + " is no size such as 960x540, 16 to 4096 a side";
         });
     app.add_option("--ratios", settings.ratios, "the times that scripts/bench wrote, to be shown")
         ->capture_default_str();
@@ -86,7 +74,6 @@ std::optional<int> parse(int argc, char** argv, Settings& settings) {
         return 2;
     }
     if (size.empty() && settings.quick) settings.extent = {640, 360};
-    if (!size.empty()) parse_extent(size, settings.extent);
     if (settings.scenes.empty()) settings.scenes = built_in;
     std::erase(settings.scenes, "none");
     if (!settings.models.empty() || !settings.scenes.empty()) return std::nullopt;

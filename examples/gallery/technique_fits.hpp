@@ -63,6 +63,11 @@ void cascades(MapSet& set, Input const& in, double lambda, CascadeFit fit, backe
 // On the plane of least distortion for points spread over the boxes in view.
 [[nodiscard]] ShadowMap<double> chosen_plane_map(Input const& in);
 
+// Maps put where the picture needs them: by what may be seen of the receivers' boxes, and by what is seen, of which the
+// eye's depth tells the places and nothing of how the surfaces lean.
+void maps_for_boxes(MapSet& set, Input const& in);
+void maps_for_depths(MapSet& set, Input const& in);
+
 // The eye as its depth is drawn for fits: in float, as the device has it, reversed and without an end.
 [[nodiscard]] ViewVolume<float> sampling_eye(scenes::View const& view, backend::Extent extent);
 inline constexpr ClipSpace sampling_clip = reversed(drawn_clip);

@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // Picture truth at an equal budget: every policy and every folk recipe over some fifty views, in one table.
+#include "examples/gallery/extent.hpp"
 #include "examples/gallery/staging.hpp"
 #include "examples/quality/report.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <fstream>
 #include <iostream>
 
 namespace shadowmath::quality {
 namespace {
-
-bool parse_extent(std::string const& text, backend::Extent& extent) {
-    std::size_t const cross = text.find('x');
-    if (cross == std::string::npos) return false;
-    char const* const middle = text.data() + cross;
-    char const* const end = text.data() + text.size();
-    auto const width = std::from_chars(text.data(), middle, extent.width);
-    auto const height = std::from_chars(middle + 1, end, extent.height);
-    auto const fits = [](int side) { return side >= 64 && side <= 4096; };
-    return width.ec == std::errc{} && width.ptr == middle && height.ec == std::errc{} && height.ptr == end &&
-           fits(extent.width) && fits(extent.height);
-}
 
 void write_text(std::filesystem::path const& path, std::string const& text) {
     std::ofstream file(path, std::ios::binary);
@@ -40,7 +28,9 @@ int study(int argc, char** argv) {
     app.add_option("--out", settings.out, "folder to write")->capture_default_str();
     app.add_option("--models", settings.models, "folder of Wavefront OBJ files to study too");
     app.add_option("--size", size, "WIDTHxHEIGHT of the pictures")->check([&](std::string const& text) {
-        return parse_extent(text, settings.extent) ? "" : text + " is no size such as 960x540, 64 to 4096 a side";
+        return gallery::parse_extent(text, 64, settings.extent)
+                   ? ""
+                   : text + " is no size such as 960x540, 64 to 4096 a side";
     });
     app.add_option("--policy", settings.only_policies, "only these policies, by id");
     app.add_option("--view", settings.only_views, "only views whose scene/name holds one of these");

@@ -93,21 +93,42 @@ Fitted cascades(Input const& in, CascadeFit fit) {
     return with(fit_cascades(in.seen, in.light, in.casters, in.receivers, cascade_options(fit)));
 }
 
-Fitted chosen_options(Input const& in) {
+// The best options for what is seen at `samples`.
+Fitted chosen_options(Input const& in, SurfacePoint<double> const* samples, int count) {
     ChoiceLimits<double> limits;
     limits.eye_pixels = {in.picture.width, in.picture.height};
     limits.texels = std::int64_t(map_count) * map_size * map_size;
     limits.most_maps = map_count;
     limits.largest_map = map_size;
     limits.motion = Motion::any;
-    limits.goal = Goal::least_mean;
-    Samples<double> const samples = samples_in(in.seen, in.light, in.receivers);
-    CascadeOptions<double> given = cascade_options(CascadeFit::tight);
-    Choice<double> const choice =
-        choose(in.seen, in.light, in.casters, in.receivers, samples.at.data(), samples.count, given, limits);
+    limits.goal = Goal::fewest_wrong;
+    CascadeOptions<double> const given = cascade_options(CascadeFit::tight);
+    Choice<double> const choice = choose(in.seen, in.light, in.casters, in.receivers, samples, count, given, limits);
     CascadeOptions<double> options = choice.options;
     options.map_size = map_size;
     return with(fit_cascades(in.seen, in.light, in.casters, in.receivers, options));
+}
+
+Fitted options_from_boxes(Input const& in) {
+    Samples<double> const samples =
+        samples_in_boxes(in.seen, in.light, in.receiver_boxes.data(), int(in.receiver_boxes.size()));
+    return chosen_options(in, samples.at.data(), samples.count);
+}
+
+// One in so many, `max_samples` at most; those that the light reaches.
+std::vector<SurfacePoint<double>> few_samples(Input const& in) {
+    std::vector<SurfacePoint<double>> facing;
+    for (SurfacePoint<double> const& sample : in.coarse.points)
+        if (glm::dot(sample.normal, in.light.direction) < 0.0) facing.push_back(sample);
+    std::size_t const stride = std::max<std::size_t>(1, (facing.size() + max_samples - 1) / max_samples);
+    std::vector<SurfacePoint<double>> samples;
+    for (std::size_t i = 0; i < facing.size(); i += stride) samples.push_back(facing[i]);
+    return samples;
+}
+
+Fitted options_from_depth(Input const& in) {
+    auto const samples = few_samples(in);
+    return chosen_options(in, samples.data(), int(samples.size()));
 }
 
 Fitted sampled(Input const& in, SampleSplits kind) {
@@ -215,7 +236,8 @@ std::vector<Entry> const& entries() {
         {{"plane", "plane (VDSM), focus behind it", Family::library, false, true}, plane_first},
         {{"sdsm", "samples, splits around gaps", Family::library, false, true},
          [](Input const& in) { return sampled(in, SampleSplits::adaptive); }},
-        {{"options", "options chosen from bounds", Family::library}, chosen_options},
+        {{"options", "options chosen from boxes", Family::library}, options_from_boxes},
+        {{"options-depth", "options chosen from a depth buffer", Family::library, false, true}, options_from_depth},
         {{"chosen-boxes", "maps chosen from boxes alone", Family::chosen}, chosen_from_boxes},
         {{"chosen-depth", "maps chosen from a depth buffer", Family::chosen, false, true}, chosen_from_depth},
     };

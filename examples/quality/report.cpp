@@ -23,15 +23,22 @@ std::string formatted(char const* format, Values... values) {
 }  // namespace
 
 std::string table(Results const& results) {
-    std::string text =
-        formatted("%-34s %7s %7s %7s %6s | %6s %6s %6s | %5s %5s %6s %8s\n", "% of off-edge pixels wrong", "mean",
-                  "geom.", "worst", "/folk", "px", "p95", "used%", "ok%", "all%", "dark", "ms");
+    std::string text = formatted("%-34s %7s %7s %7s %6s | %6s %6s %6s %6s | %6s %6s | %5s %5s | %5s %5s %6s %8s\n",
+                                 "% of off-edge pixels wrong", "mean", "geom.", "worst", "/folk", "px", "p95", "(med.",
+                                 "med.)", "persp.", "p95", "used%", "seen%", "ok%", "all%", "dark", "ms");
     for (Summary const& s : summaries(results))
-        text += formatted("%-34s %7.4f %7.4f %7.3f %6.3f | %6.3f %6.2f %6.1f | %5.1f %5.1f %6ld %8.2f\n",
+        text += formatted("%-34s %7.4f %7.4f %7.3f %6.3f | %6.2f %6.2f %6.2f %6.2f | %6.3f %6.2f | %5.1f %5.1f | %5.1f "
+                          "%5.1f %6ld %8.2f\n",
                           s.policy.title.c_str(), 100.0 * s.mean, 100.0 * s.geometric_mean, 100.0 * s.worst,
-                          s.of_best_folk, s.footprint_mean, s.footprint_p95, 100.0 * s.texels_used, 100.0 * s.not_worse,
+                          s.of_best_folk, s.footprint_mean, s.footprint_p95, s.footprint_mean_median,
+                          s.footprint_p95_median, s.figures.perspective_mean, s.figures.perspective_p95,
+                          100.0 * s.texels_used, 100.0 * s.figures.texels_seen, 100.0 * s.not_worse,
                           100.0 * s.not_worse_than_any, s.dark_unmapped, s.fit_milliseconds);
-    text += formatted("%zu views\n", results.views.size());
+    text += formatted(
+        "%zu views. px, p95: mean over the views, and their medians in brackets. persp.: the same without the "
+        "surface's own share of it, cos(eye) / cos(light).\n"
+        "used: texels that the filter reads for the pixels' centres; seen: for points all over the pixels.\n",
+        results.views.size());
     for (std::string const& what : results.absent) text += "ABSENT, not studied: " + what + "\n";
     return text;
 }
@@ -47,7 +54,11 @@ std::string results_json(Settings const& settings, Results const& results) {
                               {"off_edge_pixels", s.off_edge_pixels},
                               {"footprint_mean", s.footprint_mean},
                               {"footprint_p95", s.footprint_p95},
+                              {"footprint_median", s.figures.footprint_median},
+                              {"perspective_mean", s.figures.perspective_mean},
+                              {"perspective_p95", s.figures.perspective_p95},
                               {"texels_used", s.texels_used},
+                              {"texels_seen", s.figures.texels_seen},
                               {"dark_unmapped", s.dark_unmapped},
                               {"maps", s.maps},
                               {"fit_milliseconds", s.fit_milliseconds},
@@ -67,7 +78,12 @@ std::string results_json(Settings const& settings, Results const& results) {
                         {"of_best_folk", s.of_best_folk},
                         {"footprint_mean", s.footprint_mean},
                         {"footprint_p95", s.footprint_p95},
+                        {"footprint_mean_median", s.footprint_mean_median},
+                        {"footprint_p95_median", s.footprint_p95_median},
+                        {"perspective_mean", s.figures.perspective_mean},
+                        {"perspective_p95", s.figures.perspective_p95},
                         {"texels_used", s.texels_used},
+                        {"texels_seen", s.figures.texels_seen},
                         {"not_worse", s.not_worse},
                         {"not_worse_than_any", s.not_worse_than_any},
                         {"dark_unmapped", s.dark_unmapped},
@@ -107,14 +123,17 @@ char const* class_of(Family family) {
 std::string rows_of(std::vector<Summary> const& all) {
     std::string text =
         "<table><tr><th>wrong, % of off-edge pixels</th><th>mean</th><th>geometric</th><th>worst</th><th>of the best "
-        "recipe</th><th>footprint, px</th><th>95th</th><th>texels used</th><th>not worse in</th><th>dark without a "
+        "recipe</th><th>footprint, px</th><th>95th</th><th>perspective alone</th><th>95th</th><th>texels used</th>"
+        "<th>seen</th><th>not worse in</th><th>dark without a "
         "map</th><th>ms</th></tr>\n";
     for (Summary const& s : all)
         text += formatted("<tr class=\"%s\"><td>%s</td><td>%.4f</td><td>%.4f</td><td>%.3f</td><td>%.2f</td>"
-                          "<td>%.2f</td><td>%.1f</td><td>%.0f %%</td><td>%.0f %%</td><td>%ld</td><td>%.1f</td></tr>\n",
+                          "<td>%.2f</td><td>%.1f</td><td>%.2f</td><td>%.1f</td><td>%.0f %%</td><td>%.0f %%</td>"
+                          "<td>%.0f %%</td><td>%ld</td><td>%.1f</td></tr>\n",
                           class_of(s.policy.family), example::escaped(s.policy.title).c_str(), 100.0 * s.mean,
                           100.0 * s.geometric_mean, 100.0 * s.worst, s.of_best_folk, s.footprint_mean, s.footprint_p95,
-                          100.0 * s.texels_used, 100.0 * s.not_worse, s.dark_unmapped, s.fit_milliseconds);
+                          s.figures.perspective_mean, s.figures.perspective_p95, 100.0 * s.texels_used,
+                          100.0 * s.figures.texels_seen, 100.0 * s.not_worse, s.dark_unmapped, s.fit_milliseconds);
     return text + "</table>\n";
 }
 

@@ -144,7 +144,8 @@ private:
             gallery::Record const& record = measured.record;
             result.scores.push_back({policy.id, record.mis_shadowed_fraction_off_edge, record.off_edge_pixels,
                                      record.footprint_mean, record.footprint_p95, record.map_used_fraction,
-                                     dark_unmapped(truth, frame), record.maps, made.milliseconds, made.maps.note});
+                                     map_figures(truth, made.maps, frame, view), dark_unmapped(truth, frame),
+                                     record.maps, made.milliseconds, made.maps.note});
             keep_pictures(scene.name + "-" + view.name, policy, frame, measured, result);
             char text[64];
             std::snprintf(text, sizeof text, " %s %.3f", policy.id.c_str(),
@@ -183,6 +184,15 @@ std::ptrdiff_t least_of(Items const& items, Value&& value) {
     return best;
 }
 
+double median_of(Results const& results, std::function<double(ViewResult const&)> const& value) {
+    std::vector<double> values;
+    for (ViewResult const& view : results.views) values.push_back(value(view));
+    if (values.empty()) return 0.0;
+    auto const middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
 }  // namespace
 
 Results run_study(Settings const& settings, fs::path const& folder,
@@ -192,7 +202,7 @@ Results run_study(Settings const& settings, fs::path const& folder,
 
 std::vector<Summary> summaries(Results const& results) {
     std::vector<Summary> all;
-    for (Policy const& policy : results.policies) all.push_back({.policy = policy, .worst_view = {}});
+    for (Policy const& policy : results.policies) all.push_back({.policy = policy, .worst_view = {}, .figures = {}});
     double const count = std::max<double>(1.0, double(results.views.size()));
     for (ViewResult const& view : results.views)
         for (std::size_t p = 0; p < all.size(); ++p) {
@@ -208,6 +218,10 @@ std::vector<Summary> summaries(Results const& results) {
             sum.footprint_mean += score.footprint_mean / count;
             sum.footprint_p95 += score.footprint_p95 / count;
             sum.texels_used += score.texels_used / count;
+            sum.figures.footprint_median += score.figures.footprint_median / count;
+            sum.figures.perspective_mean += score.figures.perspective_mean / count;
+            sum.figures.perspective_p95 += score.figures.perspective_p95 / count;
+            sum.figures.texels_seen += score.figures.texels_seen / count;
             sum.dark_unmapped += score.dark_unmapped;
             sum.fit_milliseconds += score.fit_milliseconds / count;
         }
@@ -218,6 +232,8 @@ std::vector<Summary> summaries(Results const& results) {
     for (std::size_t p = 0; p < all.size(); ++p) {
         Summary& sum = all[p];
         sum.geometric_mean = std::exp(sum.geometric_mean);
+        sum.footprint_mean_median = median_of(results, [&](ViewResult const& v) { return v.scores[p].footprint_mean; });
+        sum.footprint_p95_median = median_of(results, [&](ViewResult const& v) { return v.scores[p].footprint_p95; });
         if (best < 0) continue;
         double const least = all[std::size_t(best)].mean;
         sum.of_best_folk = least > 0.0 ? sum.mean / least : 0.0;

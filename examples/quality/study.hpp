@@ -3,6 +3,7 @@
 // The study: every view through every policy, drawn, and held against ray-traced truth pixel by pixel.
 #pragma once
 
+#include "examples/quality/figures.hpp"
 #include "examples/quality/policies.hpp"
 
 #include <filesystem>
@@ -29,7 +30,8 @@ struct Score {
     double wrong = 0.0;  // share of off-edge pixels on the wrong side of the light
     long off_edge_pixels = 0;
     double footprint_mean = 0.0, footprint_p95 = 0.0;  // eye pixels a texel
-    double texels_used = 0.0;
+    double texels_used = 0.0;                          // share that the filter reads for the pixels' centres
+    MapFigures figures;
     long dark_unmapped = 0;  // pixels in no map, and so drawn lit, that are dark in truth
     int maps = 0;
     double fit_milliseconds = 0.0;
@@ -61,6 +63,8 @@ struct Summary {
     double of_best_folk = 0.0;                         // mean over the least mean of a folk recipe
     double footprint_mean = 0.0, footprint_p95 = 0.0;  // mean of both over the views
     double texels_used = 0.0;
+    MapFigures figures;                                              // means over the views
+    double footprint_mean_median = 0.0, footprint_p95_median = 0.0;  // of the views, not their mean
     double not_worse = 0.0;           // share of views in which it is not worse than the folk recipe of the least mean
     double not_worse_than_any = 0.0;  // and than the best folk recipe of each view
     long dark_unmapped = 0;

@@ -107,6 +107,8 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T plane_map_area(T point_normal_to_eye, T plane_normal_to_eye, T point_normal_to_light,
                                       T plane_normal_to_light, T w_point, T w_plane) noexcept {
+    for (T const divisor : {w_point, plane_normal_to_eye, point_normal_to_light})
+        if (!(std::abs(divisor) > T(0))) return T(0);
     T const bend = w_plane / w_point;
     T const tilt = (point_normal_to_eye / plane_normal_to_eye) * (plane_normal_to_light / point_normal_to_light);
     T const result = std::abs(tilt * bend * bend * bend);

@@ -32,83 +32,107 @@ inline constexpr int guess_rays_y = 12;
 template <class T>
 inline constexpr T leaning_surfaces = T(3);
 
-// Where a ray of the view is inside a box.
+// A surface that the eye may see along one ray.
 template <class T>
-struct DepthSpan {
-    T first = T(0);  // eye depth
-    T last = T(-1);  // below first: it misses
+struct DepthGuess {
+    T depth = T(0);   // of the eye
+    T weight = T(0);  // of a ray: they sum to 1, or there are none
 };
 
-// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
 template <class T>
-[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
-                                                Aabb<T> const& box) noexcept {
-    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
-    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
-    T first = T(0), last = T(1);  // of the way
-    for (int axis = 0; axis < 3; ++axis) {
-        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
-        if (std::abs(way[axis]) > T(0)) {
-            T const a = to_lo / way[axis], b = to_hi / way[axis];
-            first = std::fmax(first, std::fmin(a, b));
-            last = std::fmin(last, std::fmax(a, b));
-        } else if (to_lo > T(0) || to_hi < T(0)) {
-            return {};
+struct RayGuesses {
+    std::array<DepthGuess<T>, 8> at;
+    int count = 0;
+};
+
+// Two in each of the first four boxes that the ray meets. Boxes that are empty or not finite are none.
+template <class T>
+[[nodiscard]] inline RayGuesses<T> guesses_on_ray(ViewVolume<T> const& view, T side_x, T side_y, Aabb<T> const* boxes,
+                                                  int box_count) noexcept {
+    constexpr int most = 4;
+    RayGuesses<T> guesses;
+    std::array<DepthSpan<T>, most> span;  // by their first depths
+    DepthSpan<T> around;                  // of the boxes that the eye is in, the one that ends last
+    int met = 0;
+    for (int b = 0; b < box_count; ++b) {
+        if (!all_finite(boxes[b]) || is_empty(boxes[b])) continue;
+        DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, boxes[b]);
+        if (!(inside.first <= inside.last)) continue;
+        if (!(inside.first > view.z_near)) {
+            if (inside.last > around.last) around = inside;
+            continue;
         }
+        if (met == most && !(inside.first < span[most - 1].first)) continue;
+        int at = met < most ? met++ : most - 1;
+        for (; at > 0 && span[static_cast<unsigned>(at - 1)].first > inside.first; --at)
+            span[static_cast<unsigned>(at)] = span[static_cast<unsigned>(at - 1)];
+        span[static_cast<unsigned>(at)] = inside;
     }
-    T const range = view.z_far - view.z_near;
-    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
+    auto const guess = [&guesses](DepthSpan<T> const& in, T part, T weight) {
+        guesses.at[static_cast<unsigned>(guesses.count++)] = {in.first + (in.last - in.first) * part, weight};
+    };
+    T left = T(1);
+    for (int i = 0; i < met; ++i) {
+        T const here = i + 1 < met ? T(0.5) * left : left;
+        left -= here;
+        guess(span[static_cast<unsigned>(i)], T(0.25), T(0.5) * here);
+        guess(span[static_cast<unsigned>(i)], T(0.75), T(0.5) * here);
+    }
+    if (met == 0 && around.first <= around.last) {
+        guess(around, T(0.5), T(0.5));
+        guess(around, T(0.9), T(0.5));
+    }
+    return guesses;
 }
 
-// Fills `into` with at most `capacity` weighted guesses and returns how many: two in each of the first four boxes that
-// a ray meets.
+// Fills `into` with at most `capacity` weighted guesses and returns how many.
 template <class T>
 [[nodiscard]] inline int guesses_in_boxes(LightSampler<T> const& sampler, Light<T> const& light, Aabb<T> const* boxes,
                                           int box_count, LightSample<T>* into, int capacity) noexcept {
-    constexpr int most = 4, rays_x = guess_rays_x, rays_y = guess_rays_y;
+    constexpr int rays_x = guess_rays_x, rays_y = guess_rays_y;
     int count = 0;
     ViewVolume<T> const& view = sampler.view;
     for (int ray = 0; ray < rays_x * rays_y; ++ray) {
         T const part_x = (T(ray % rays_x) + T(0.5)) / T(rays_x), part_y = (T(ray / rays_x) + T(0.5)) / T(rays_y);
         T const side_x = view.left + (view.right - view.left) * part_x;
         T const side_y = view.bottom + (view.top - view.bottom) * part_y;
-        std::array<DepthSpan<T>, most> span;  // by their first depths
-        DepthSpan<T> around;                  // of the boxes that the eye is in, the one that ends last
-        int met = 0;
-        for (int b = 0; b < box_count; ++b) {
-            if (!all_finite(boxes[b]) || is_empty(boxes[b])) continue;
-            DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, boxes[b]);
-            if (!(inside.first <= inside.last)) continue;
-            if (!(inside.first > view.z_near)) {
-                if (inside.last > around.last) around = inside;
-                continue;
-            }
-            if (met == most && !(inside.first < span[most - 1].first)) continue;
-            int at = met < most ? met++ : most - 1;
-            for (; at > 0 && span[static_cast<unsigned>(at - 1)].first > inside.first; --at)
-                span[static_cast<unsigned>(at)] = span[static_cast<unsigned>(at - 1)];
-            span[static_cast<unsigned>(at)] = inside;
-        }
-        auto const guess = [&](DepthSpan<T> const& in, T part, T weight) {
-            if (count == capacity) return;
-            Vec3<T> const point = point_at(view, side_x, side_y, in.first + (in.last - in.first) * part);
+        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        for (int i = 0; i < guesses.count && count < capacity; ++i) {
+            DepthGuess<T> const& guess = guesses.at[static_cast<unsigned>(i)];
+            Vec3<T> const point = point_at(view, side_x, side_y, guess.depth);
             LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
-            sample.weight = weight;
+            sample.weight = guess.weight;
             if (sample.usable) into[count++] = sample;
-        };
-        T left = T(1);
-        for (int i = 0; i < met; ++i) {
-            T const here = i + 1 < met ? T(0.5) * left : left;
-            left -= here;
-            guess(span[static_cast<unsigned>(i)], T(0.25), T(0.5) * here);
-            guess(span[static_cast<unsigned>(i)], T(0.75), T(0.5) * here);
-        }
-        if (met == 0 && around.first <= around.last) {
-            guess(around, T(0.5), T(0.5));
-            guess(around, T(0.9), T(0.5));
         }
     }
     return count;
+}
+
+// The same as samples for choose.hpp and judge.hpp, which know no weights: on each of eight by eight rays four, the
+// more of them in a box the likelier the ray ends there. None of a view with faults, or without an end.
+template <class T>
+[[nodiscard]] inline Samples<T> samples_in_boxes(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const* boxes,
+                                                 int box_count) noexcept {
+    SHADOWMATH_ASSERT(boxes != nullptr || box_count <= 0, "samples need their boxes");
+    Samples<T> samples;
+    if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light)) return samples;
+    constexpr int rays = 8, on_each = max_samples / (rays * rays);
+    for (int ray = 0; ray < rays * rays; ++ray) {
+        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
+        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
+        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        int at = 0;
+        T passed = T(0);  // weight of the guesses before `at`
+        for (int i = 0; i < on_each && guesses.count > 0; ++i) {
+            T const share = (T(i) + T(0.5)) / T(on_each);
+            while (at + 1 < guesses.count && passed + guesses.at[static_cast<unsigned>(at)].weight < share)
+                passed += guesses.at[static_cast<unsigned>(at++)].weight;
+            Vec3<T> const point = point_at(view, side_x, side_y, guesses.at[static_cast<unsigned>(at)].depth);
+            if (!all_finite(point)) continue;
+            samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
+        }
+    }
+    return samples;
 }
 
 }  // namespace v0

@@ -53,7 +53,7 @@ struct CascadeOptions {
     int map_size = 2048;  // texels along one side of each
     CascadeFit fit = CascadeFit::stable;
     int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
-    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none
+    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none; see warp_less
     T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
     T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
     T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
@@ -61,6 +61,7 @@ struct CascadeOptions {
     int filter_radius = 1;     // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
     bool pancake = false;      // true: near plane at the slice, and the renderer turns depth clamp ON
     ClipSpace clip = gl_clip;  // the convention of the pass that draws the maps
+    std::array<T, max_splits> warp_less{};  // the share of warp_strength that each map goes without, [0, 1]
 };
 
 template <class T>
@@ -136,11 +137,11 @@ inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasi
 
 // `previous`: the same map in the last frame, or one that is not visible.
 template <class T>
-inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVolume<T> const& part,
+inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_strength, ViewVolume<T> const& part,
                             Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
                             Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
     if (cascade_fit == CascadeFit::warped) {
-        WarpOptions<T> const warp{options.map_size, margin_texels, options.warp_strength};
+        WarpOptions<T> const warp{options.map_size, margin_texels, warp_strength};
         cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
         return;
     }
@@ -224,8 +225,9 @@ template <class T>
         if (light.kind == LightKind::directional) {
             Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
             CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
-            detail::fit_directional(cascade, cascade_fit, part, light, last, casters, receivers, margin_texels,
-                                    options);
+            T const strength = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(i)]);
+            detail::fit_directional(cascade, cascade_fit, strength, part, light, last, casters, receivers,
+                                    margin_texels, options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }

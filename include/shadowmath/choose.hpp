@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Options found by measuring: how many maps, how large, split where, fitted how, so that the worst (or the mean)
-// footprint over what the eye sees is least, within a number of texels. For a settings menu, an editor, the loading of
-// a level, or again when the camera has gone somewhere else; not for every frame, since options that change make
-// shadows jump.
+// footprint over what the eye sees is least, or the fewest pixels come out wrong, within a number of texels. For a
+// settings menu, an editor, the loading of a level, or again when the camera has gone somewhere else; not for every
+// frame, since options that change make shadows jump.
 //
 // It tries them: every number of maps, every fit allowed, eleven values of lambda and then between the best two
-// neighbours. No randomness, no clock; the same inputs give the same options, after at most 29 tries for each pair of
-// count and fit. Where two are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
+// neighbours; of warped maps also each with half of its warp and with none. No randomness, no clock; the same inputs
+// give the same options, after at most 29 tries for each pair of count and fit and two for each warped map. Where two
+// are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
 //
 // Source: none; engines leave this to the user's eye. The closed forms (aliasing.hpp) say what is best for one light on
 // one plane; this holds for any.
@@ -27,7 +28,11 @@
 namespace shadowmath {
 inline namespace v0 {
 
-enum class Goal : std::uint8_t { least_worst, least_mean };
+enum class Goal : std::uint8_t {
+    least_worst,   // of the footprints: no place is much worse than the others
+    least_mean,    // of the footprints
+    fewest_wrong,  // of the pixels (price_of): the truest picture, and what choose_maps goes by
+};
 
 enum class Motion : std::uint8_t {
     still,    // no shimmer at all: stable fits
@@ -47,7 +52,7 @@ struct ChoiceLimits {
 
 template <class T>
 struct Choice {
-    CascadeOptions<T> options;  // those given, with count, map_size, fit, steady_maps and lambda chosen
+    CascadeOptions<T> options;  // those given, with count, map_size, fit, steady_maps, lambda, warp_less chosen
     Judgement<T> judgement;     // of these options
     int tried = 0;
     bool visible = false;  // false: no map showed any of the samples, and the options are those given
@@ -76,7 +81,11 @@ template <class T>
     if (most != limits.most_maps || limits.texels < 16 || limits.largest_map < 4) best.faults = Fault::clamped_option;
     T least = footprint_limit<T>;
     auto const value = [&limits](Judgement<T> const& judgement) {
-        return limits.goal == Goal::least_worst ? judgement.all.worst : judgement.all.mean;
+        switch (limits.goal) {
+            case Goal::least_mean: return judgement.all.mean;
+            case Goal::fewest_wrong: return judgement.all.price;
+            default: return judgement.all.worst;
+        }
     };
     auto const attempt = [&](CascadeOptions<T> const& options) {
         Cascades<T> const cascades = fit_cascades(view, light, casters, receivers, options);
@@ -122,6 +131,18 @@ template <class T>
             best.visible = true;
         }
     }
+    if (best.options.fit != CascadeFit::warped || !best.visible) return best;
+    // A warp helps where the view looks along the ground, and takes from what is far away: each map decides.
+    for (int c = 0; c < best.options.count; ++c)
+        for (T const less : {T(0.5), T(1)}) {
+            CascadeOptions<T> options = best.options;
+            options.warp_less[static_cast<unsigned>(c)] = less;
+            Judgement<T> const measured = attempt(options);
+            if (!(value(measured) < least)) continue;
+            least = value(measured);
+            best.options = options;
+            best.judgement = measured;
+        }
     return best;
 }
 

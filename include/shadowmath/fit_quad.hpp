@@ -25,15 +25,6 @@
 namespace shadowmath {
 inline namespace v0 {
 
-// What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel
-// of a pixel and a half is as good as any smaller one; from there on so many more are wrong, until the shadow is lost.
-template <class T>
-[[nodiscard]] inline T price_of(T major) noexcept {
-    constexpr T fine = T(1.4), lost = T(60);
-    T const excess = major > fine ? major - fine : T(0);
-    return T(0.1) * (major < fine ? major : fine) + excess / (T(1) + excess / lost);
-}
-
 // Eye pixels along the longer axis of a texel of the quadrilateral's map at the sample.
 template <class T>
 [[nodiscard]] inline T major_at(Quad<T> const& quad, T usable_texels, LightSample<T> const& sample) noexcept {

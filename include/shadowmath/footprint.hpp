@@ -36,6 +36,16 @@ template <class T>
     return footprint.major * footprint.minor;
 }
 
+// What a footprint of `major` pixels counts for where maps are compared: the pixels that come out wrong, as measured
+// over many views. A texel of a pixel and a half is as good as any smaller one; from there on so many more are wrong,
+// until a texel of some thirty pixels has lost the shadow, and larger ones lose no more.
+template <class T>
+[[nodiscard]] inline T price_of(T major) noexcept {
+    constexpr T fine = T(1.4), lost = T(30);
+    T const excess = major > fine ? major - fine : T(0), share = excess / lost;
+    return T(0.1) * (major < fine ? major : fine) + excess / std::sqrt(T(1) + share * share);
+}
+
 // The same seen from the map: the axes, in texels, of one eye pixel. Above 1 the map is finer than the picture needs.
 template <class T>
 [[nodiscard]] inline Footprint<T> texels_per_pixel(Footprint<T> const& footprint) noexcept {

@@ -131,9 +131,8 @@ template <class T>
     MapBias<T> const bias = bias_for(map, light, map_size, options);
     GpuMapBias gpu{static_cast<float>(bias.constant), static_cast<float>(bias.per_inverse_w),
                    static_cast<float>(bias.slope_texels), static_cast<float>(bias.slope_limit)};
-    bool const finite = all_finite(&gpu.constant, 1) && all_finite(&gpu.per_inverse_w, 1) &&
-                        all_finite(&gpu.slope_texels, 1) && all_finite(&gpu.slope_limit, 1);
-    return {gpu_shadow_map(map), finite ? gpu : GpuMapBias{}};
+    float const numbers[] = {gpu.constant, gpu.per_inverse_w, gpu.slope_texels, gpu.slope_limit};
+    return {gpu_shadow_map(map), all_finite(numbers, 4) ? gpu : GpuMapBias{}};
 }
 
 // Hard shadows where float cannot hold the numbers.

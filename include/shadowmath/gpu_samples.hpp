@@ -26,20 +26,20 @@ namespace shadowmath {
 inline namespace v0 {
 
 struct GpuSampleFit {
-    Vec4<float> basis_x;      // w: z_near, metres of eye depth
-    Vec4<float> basis_y;      // w: z_far
-    Vec4<float> basis_depth;  // w: least ratio of a split
-    Vec4<float>
-        inverse_along;       // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
-    Vec4<float> eye;         // in light space; w: texels along a side of the map
-    Vec4<float> forward;     // of the eye, in light space; w: margin as a share of the body's extent
-    Vec4<float> right;       // w: 1 / (usable texels - 1), for still maps
-    Vec4<float> up;          // w: what the depth buffer is cleared to
-    Vec4<float> first_step;  // sides at the centre of pixel (0, 0), and from pixel to pixel
-    Vec4<float> casters_lo;  // world
-    Vec4<float> casters_hi;
-    Vec4<float> depth_code;  // numerator's scale and offset, denominator's scale and offset
-    Vec4<float> bias;        // of BiasOptions: flat_texels, texels, steepest, depth_step
+    Vec4<float> basis_x{0.0f};      // w: z_near, metres of eye depth
+    Vec4<float> basis_y{0.0f};      // w: z_far
+    Vec4<float> basis_depth{0.0f};  // w: least ratio of a split
+    // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
+    Vec4<float> inverse_along{0.0f};
+    Vec4<float> eye{0.0f};         // in light space; w: texels along a side of the map
+    Vec4<float> forward{0.0f};     // of the eye, in light space; w: margin as a share of the body's extent
+    Vec4<float> right{0.0f};       // w: 1 / (usable texels - 1), for still maps
+    Vec4<float> up{0.0f};          // w: what the depth buffer is cleared to
+    Vec4<float> first_step{0.0f};  // sides at the centre of pixel (0, 0), and from pixel to pixel
+    Vec4<float> casters_lo{0.0f};  // world
+    Vec4<float> casters_hi{0.0f};
+    Vec4<float> depth_code{0.0f};  // numerator's scale and offset, denominator's scale and offset
+    Vec4<float> bias{0.0f};        // of BiasOptions: flat_texels, texels, steepest, depth_step
     Mat4<float> clip_from_canonical{1.0f};
     std::int32_t width = 0;  // pixels
     std::int32_t height = 0;

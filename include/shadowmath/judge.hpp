@@ -48,6 +48,34 @@ template <class T>
     return half.length > T(1e-3) ? half.direction : to_eye;
 }
 
+// Where a ray of the view is inside a box.
+template <class T>
+struct DepthSpan {
+    T first = T(0);  // eye depth
+    T last = T(-1);  // below first: it misses
+};
+
+// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
+template <class T>
+[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
+                                                Aabb<T> const& box) noexcept {
+    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
+    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
+    T first = T(0), last = T(1);  // of the way
+    for (int axis = 0; axis < 3; ++axis) {
+        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
+        if (std::abs(way[axis]) > T(0)) {
+            T const a = to_lo / way[axis], b = to_hi / way[axis];
+            first = std::fmax(first, std::fmin(a, b));
+            last = std::fmin(last, std::fmax(a, b));
+        } else if (to_lo > T(0) || to_hi < T(0)) {
+            return {};
+        }
+    }
+    T const range = view.z_far - view.z_near;
+    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
+}
+
 // Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
 // depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
 // without an end.
@@ -62,22 +90,9 @@ template <class T>
     for (int ray = 0; ray < rays * rays; ++ray) {
         T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
         T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
-        Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
-        Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
-        T first = T(0), last = T(1);  // of the way
-        for (int axis = 0; axis < 3; ++axis) {
-            T const to_lo = receivers.lo[axis] - start[axis], to_hi = receivers.hi[axis] - start[axis];
-            if (std::abs(way[axis]) > T(0)) {
-                T const a = to_lo / way[axis], b = to_hi / way[axis];
-                first = std::fmax(first, std::fmin(a, b));
-                last = std::fmin(last, std::fmax(a, b));
-            } else if (to_lo > T(0) || to_hi < T(0)) {
-                last = T(-1);
-            }
-        }
-        if (!(first <= last)) continue;
-        T const range = view.z_far - view.z_near;
-        T const begin = view.z_near + first * range, end = view.z_near + last * range;
+        DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, receivers);
+        if (!(inside.first <= inside.last)) continue;
+        T const begin = inside.first, end = inside.last;
         T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
         int const count = ratio > T(1.001) ? on_each : 1;
         for (int i = 0; i < count; ++i) {
@@ -94,6 +109,7 @@ template <class T>
 struct Worth {
     T worst = T(0);    // eye pixels per texel along the longer axis of the footprint, at the worst point
     T mean = T(0);     // of all points
+    T price = T(0);    // the mean of price_of
     int count = 0;     // points
     int unserved = 0;  // of them: no map holds them; they count as footprint_limit
 };
@@ -115,7 +131,8 @@ template <class T>
     Mat4<T> const eye = clip_from_world(view, ClipSpace{});
     auto const take = [](Worth<T>& worth, T major) {
         worth.worst = std::fmax(worth.worst, major);
-        worth.mean += major;  // a sum until the end
+        worth.mean += major;  // sums until the end
+        worth.price += price_of(major);
         worth.unserved += major >= footprint_limit<T> ? 1 : 0;
         ++worth.count;
     };
@@ -139,7 +156,11 @@ template <class T>
             break;
         }
     }
-    auto const close = [](Worth<T>& worth) { worth.mean = worth.count > 0 ? worth.mean / T(worth.count) : T(0); };
+    auto const close = [](Worth<T>& worth) {
+        T const count = T(worth.count > 0 ? worth.count : 1);
+        worth.mean /= count;
+        worth.price /= count;
+    };
     close(judgement.all);
     for (Worth<T>& worth : judgement.map) close(worth);
     return judgement;

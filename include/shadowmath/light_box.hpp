@@ -44,7 +44,10 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(axis(box.basis.x, box.lo.x, box.hi.x), axis(box.basis.y, box.lo.y, box.hi.y),
                   Vec4<T>(box.basis.depth * depth_scale, -box.depth_lo * depth_scale), Vec4<T>(T(0), T(0), T(0), T(1)));
-    return all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
+    if (!all_finite(canonical)) return nowhere<T>();
+    // Where depth runs from -1 to 1, or the other way, the largest numbers of a float are not enough.
+    Mat4<T> const map = clip_from_canonical<T>(clip) * canonical;
+    return all_finite(map) ? map : nowhere<T>();
 }
 
 // The same map for points given relative to `origin` (a camera-relative renderer): M * translate(origin). Compute it in

@@ -22,7 +22,7 @@ inline namespace v0 {
 [[nodiscard]] constexpr int frames_between(int map, int count) noexcept {
     if (map <= 0 || count <= 1) return 1;
     int const power = map < count - 1 ? map : count - 2;
-    return power < 0 ? 1 : 1 << (power < 30 ? power : 30);
+    return 1 << (power < 30 ? power : 30);
 }
 
 // Bit i: map i is due. In any frames_between(i, count) frames in a row each map is due exactly once, and in no frame

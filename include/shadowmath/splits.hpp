@@ -74,7 +74,7 @@ inline void close_splits(Splits<T>& splits, T z_near, T z_far) noexcept {
     for (int i = 1; i < splits.count; ++i)
         if (splits.plane[i] > splits.plane[kept] && splits.plane[i] < z_far) splits.plane[++kept] = splits.plane[i];
     splits.plane[++kept] = z_far;
-    if (kept != splits.count) splits.faults |= Fault::count_clamped;
+    splits.faults |= Fault::count_clamped;
     for (int i = kept + 1; i <= splits.count; ++i) splits.plane[i] = T(0);
     splits.count = kept;
 }

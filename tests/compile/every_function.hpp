@@ -114,13 +114,14 @@ int every_function() noexcept {
              &closed_form::split_logarithmic_worst<T>, &closed_form::plane_map_area<T>);
     count += keep(&slope<T>, &lean<T>, &depth_gain<T>, &depth_shift<T>, &depth_bias<T>, &kernel_reach_texels<T>,
                   &normal_offset_metres<T>, &normal_offset_at<T>, &bias_for<T>, &bias_at<T>);
-    count += keep(&by_footprint<T>, &choose_planes<T>);
+    count += keep(&by_footprint<T>, &with_map<T>, &look_up_in<T>, &choose_planes<T>);
     count += keep(&bounds_of<T>);
     count += keep(&least_squares_plane<T>, &median_plane<T>, &weighted_median_plane<T>, &plane_distortion<T>,
                   &choose_plane<T>, &worth_of<T>, &still_good<T>);
-    count += keep(&light_sampler<T>, &light_sample<T>, &depths_in_box<T>, &guesses_in_boxes<T>, &gain_at<T>,
-                  &quad_map<T>, &price_of<T>, &major_at<T>, &quad_at<T>, &frame_of<T>, &fit_quad<T>);
-    count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &judge<T>) + map_size_within(64, 1, 8);
+    count += keep(&light_sampler<T>, &light_sample<T>, &depths_in_box<T>, &guesses_on_ray<T>, &guesses_in_boxes<T>,
+                  &gain_at<T>, &quad_map<T>, &price_of<T>, &major_at<T>, &quad_at<T>, &frame_of<T>, &fit_quad<T>);
+    count += keep(&choose<T>, &neutral_normal<T>, &samples_in<T>, &samples_in_boxes<T>, &judge<T>) +
+             map_size_within(64, 1, 8);
     count += keep(&fit_cascades<T>);
     count += keep(&clipmap<T>, &pixel_metres<T>, &page_at<T>, &holds<T>, &page_for<T>);
     count += keep(&far_depth<T>, &clip_from_canonical<T>, &canonical_from_clip<T>, &texture_from_clip<T>, &is_lit<T>);

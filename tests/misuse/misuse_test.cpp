@@ -76,6 +76,9 @@ TEST_F(MisuseDeathTest, SamplesThatAreNotThereAssert) {
     EXPECT_DEATH((void)median_plane(glm::dvec3(0, 1, 0), none, 4), "a plane needs its samples");
     EXPECT_DEATH((void)plane_distortion(ShadowPlane<double>{}, view, Light<double>{}, none, 4),
                  "a plane needs its samples");
+    Aabb<double> const* const no_boxes = nullptr;
+    EXPECT_DEATH((void)samples_in_boxes(view, Light<double>{}, no_boxes, 4), "samples need their boxes");
+    EXPECT_EQ(samples_in_boxes(view, Light<double>{}, no_boxes, 0).count, 0) << "none of none is no misuse";
 }
 
 TEST_F(MisuseDeathTest, PointsThatAreNotThereAssert) {

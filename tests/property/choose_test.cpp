@@ -33,7 +33,7 @@ TYPED_TEST(ChooseProperty, BeatsOptionsDrawnAtRandom) {
         Samples<T> const samples = samples_in(view, light, world);
         auto const choice = choose(view, light, world, world, samples.at.data(), samples.count, given, limits);
         RC_ASSERT(laws::adds_up(choice.judgement));
-        RC_ASSERT(choice.tried <= 2 * 5 * 29);
+        RC_ASSERT(choice.tried <= 2 * 5 * 29 + 2 * 2);
         if (!choice.visible) return;
         CascadeOptions<T> other = given;
         other.count = static_cast<int>(1 + *below(2));

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace shadowmath::test {
@@ -57,13 +58,14 @@ Traced traced(PlanePicture<T> const& picture, std::vector<Triangle<T>> const& ca
     int const width = rect.width > 0 ? rect.width : picture.frame.width - rect.x;
     int const height = rect.height > 0 ? rect.height : picture.frame.height - rect.y;
     StorageSize const need = storage_for(width, height, map_size, 4 * width * height);
-    std::vector<T> scalars(need.scalars);
-    std::vector<std::uint32_t> words(need.words);
+    // Whatever lay there before: storage need not be cleared.
+    std::unique_ptr<T[]> const scalars(new T[need.scalars]);
+    std::unique_ptr<std::uint32_t[]> const words(new std::uint32_t[need.words]);
     Receivers<T> receivers;
     receivers.depth = picture.depth.data();
     receivers.normal = picture.normals.data();
     IrregularBuffer<T> buffer = list_receivers<T, Lanes>(picture.frame, receivers, light, grid, map_size,
-                                                         {scalars.data(), words.data(), need}, rect);
+                                                         {scalars.get(), words.get(), need}, rect);
     Casters<T> list;
     list.position = casters.empty() ? nullptr : &casters[0][0].x;
     list.stride = static_cast<int>(sizeof(Vec3<T>) / sizeof(T));  // GLM's aligned vectors have a gap behind each

@@ -6,9 +6,11 @@
 void answer(uint function) {
     sm_ShadowMap map;
     sm_MapBias bias;
-    int whole;
+    int whole, radius;
     vec3 point, normal;
     float number;
+    vec3 to_light;
+    vec3 metres;
     switch (function) {
         case 0u:
             map = take_map();
@@ -34,5 +36,15 @@ void answer(uint function) {
             whole = take_int();
             normal = take3();
             give(sm_normal_offset_metres(number, whole, normal, take3()));
+            break;
+        case 5u:
+            map = take_map();
+            whole = take_int();
+            radius = take_int();
+            point = take3();
+            normal = take3();
+            to_light = take3();
+            metres = take3();
+            give(sm_normal_offset_at(map, whole, radius, point, normal, to_light, metres.x, metres.y, metres.z));
     }
 }

@@ -69,4 +69,18 @@ TEST_P(BiasTwins, NormalOffsetMetres) {
     });
 }
 
+TEST_P(BiasTwins, NormalOffsetAt) {
+    prove({"normal_offset_at", shader, 5}, [](Draw& draw, Words& given, Words& expected) {
+        auto const [map, light, point] = draw.seen();
+        int const size = map_size(draw), radius = draw.whole(-1, 5);
+        Vec3<float> const normal = draw.direction(), to_light = toward(light, point);
+        bool const is_sun = light.kind == LightKind::directional;
+        float const distance = is_sun ? 0.0f : safe_normalize(point - light.position).length;
+        float const most = draw.spoilt(draw.log_uniform(1e-3f, 10.0f));
+        given(map)(size)(radius)(point)(normal)(to_light);
+        given(distance)(depth_gain(map, light))(most);
+        expected(normal_offset_at(map, light, size, radius, point, normal, most));
+    });
+}
+
 }  // namespace

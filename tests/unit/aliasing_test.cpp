@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <tuple>
 
 using namespace shadowmath;
 using namespace shadowmath::closed_form;
@@ -62,12 +64,50 @@ TEST(Aliasing, OutsideItsRangeIsZero) {
     double const nan = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
     EXPECT_EQ(uniform_along(1.0, 0.0, 10.0), 0.0);
     EXPECT_EQ(uniform_along(-1.0, 1.0, 10.0), 0.0);
+    EXPECT_EQ(uniform_across(5.0, 10.0, 10.0), 0.0) << "a range of no length is none";
+    EXPECT_EQ(best_centre(10.0, 10.0), 0.0);
+    EXPECT_EQ(uniform_across(0.0, 1.0, 10.0), 0.0);
+    EXPECT_EQ(warped_across(1.0, 1.0, 10.0, nan), 0.0);
+    EXPECT_EQ(warped_across(-1.0, 1.0, 10.0, 1.0), 0.0);
     EXPECT_EQ(logarithmic_along(10.0, 1.0), 0.0);
     EXPECT_EQ(logarithmic_along(1.0, endless), 0.0);
     EXPECT_EQ(warped_along(1.0, 1.0, 10.0, nan), 0.0);
     EXPECT_EQ(best_centre(nan, 10.0), 0.0);
     EXPECT_EQ(split_uniform_worst(1.0, 10.0, 0), 0.0);
+    EXPECT_EQ(split_warped_worst(1.0, 10.0, 0), 0.0);
+    EXPECT_EQ(split_logarithmic_worst(1.0, 10.0, 0), 0.0);
+    EXPECT_EQ(pixels_per_texel(0.0, 1.0, 1000.0), 0.0);
+    EXPECT_EQ(pixels_per_texel(1000.0, 1.0, nan), 0.0);
     EXPECT_EQ(pixels_per_texel(1000.0, 0.0, 1000.0), 0.0);
     EXPECT_EQ(plane_map_area(1.0, 0.0, 1.0, 1.0, 1.0, 1.0), 0.0);
     EXPECT_EQ(plane_map_area(1.0, 1.0, 0.0, 1.0, 1.0, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 1.0, 1.0, 1.0, 0.0, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 1.0, 1.0, 1.0, nan, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, -1.0, 1.0, 1.0, 1.0, 2.0), 8.0) << "an area has no sign";
+}
+
+// One bad argument at a time, at every place.
+TEST(Aliasing, IsZeroWhicheverArgumentIsBad) {
+    auto const zero_unless_all_good = [](auto const& form, auto... good) {
+        constexpr std::size_t count = sizeof...(good);
+        for (double const bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+            for (std::size_t at = 0; at < count; ++at) {
+                std::array<double, count> arguments{good...};
+                arguments[at] = bad;
+                EXPECT_EQ(std::apply(form, arguments), 0.0) << at << " is " << bad;
+            }
+        EXPECT_GT(form(good...), 0.0);
+    };
+    zero_unless_all_good([](double a, double b, double c) { return pixels_per_texel(a, b, c); }, 1000.0, 1.0, 512.0);
+    zero_unless_all_good([](double z, double a, double b) { return uniform_along(z, a, b); }, 2.0, 1.0, 9.0);
+    zero_unless_all_good([](double z, double a, double b) { return uniform_across(z, a, b); }, 2.0, 1.0, 9.0);
+    zero_unless_all_good([](double a, double b) { return logarithmic_along(a, b); }, 1.0, 9.0);
+    zero_unless_all_good([](double z, double a, double b, double c) { return warped_along(z, a, b, c); }, 2.0, 1.0, 9.0,
+                         3.0);
+    zero_unless_all_good([](double z, double a, double b, double c) { return warped_across(z, a, b, c); }, 2.0, 1.0,
+                         9.0, 3.0);
+    zero_unless_all_good([](double a, double b) { return best_centre(a, b); }, 1.0, 9.0);
+    zero_unless_all_good([](double a, double b) { return split_uniform_worst(a, b, 4); }, 1.0, 9.0);
+    zero_unless_all_good([](double a, double b) { return split_warped_worst(a, b, 4); }, 1.0, 9.0);
+    zero_unless_all_good([](double a, double b) { return split_logarithmic_worst(a, b, 4); }, 1.0, 9.0);
 }

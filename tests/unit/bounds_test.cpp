@@ -44,3 +44,14 @@ TEST(Aabb, MergesAndIntersects) {
     EXPECT_TRUE(is_empty(intersect(a, Aabb<double>{})));
     EXPECT_TRUE(laws::merging_with_nothing_changes_nothing(a));
 }
+
+TEST(BoxArrays, FromAPlaceOnHoldTheBoxesFromThere) {
+    float const columns[6][3] = {{0, 1, 2}, {10, 11, 12}, {20, 21, 22}, {30, 31, 32}, {40, 41, 42}, {50, 51, 52}};
+    BoxArrays<float> const all{columns[0], columns[1], columns[2], columns[3], columns[4], columns[5]};
+    for (int begin = 0; begin < 3; ++begin)
+        for (int i = 0; begin + i < 3; ++i) {
+            auto const at = static_cast<float>(begin + i);
+            EXPECT_TRUE(laws::same(box_at(boxes_from(all, begin), i),
+                                   Aabb<float>{glm::vec3(0, 10, 20) + at, glm::vec3(30, 40, 50) + at}));
+        }
+}

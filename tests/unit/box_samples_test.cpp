@@ -101,6 +101,17 @@ TEST(BoxSamples, ARayThatMissesABoxHasNoSpan) {
     EXPECT_TRUE(misses(0, 0, Aabb<double>{})) << "empty";
 }
 
+TEST(BoxSamples, ARayAlongAnAxisIsInABoxThatHoldsItOnTheOthers) {
+    auto const span = [](V3 lo, V3 hi) { return depths_in_box(some_view(), 0.0, 0.0, Aabb<double>{lo, hi}); };
+    EXPECT_LT(span(V3(-1, -1, -9), V3(1, 1, -5)).first, span(V3(-1, -1, -9), V3(1, 1, -5)).last);
+    for (double const side : {-1.0, 1.0}) {
+        auto const x = span(V3(3 * side - 1, -1, -9), V3(3 * side + 1, 1, -5));
+        auto const y = span(V3(-1, 3 * side - 1, -9), V3(1, 3 * side + 1, -5));
+        EXPECT_GT(x.first, x.last);
+        EXPECT_GT(y.first, y.last);
+    }
+}
+
 TEST(BoxSamples, EveryGuessIsInABoxAndInTheView) {
     Boxes const boxes{{V3(-8, -3, -40), V3(-2, 6, -12)}, {V3(1, -4, -90), V3(30, -2, -5)}, wall(80, 400)};
     ViewVolume<double> view = some_view();
@@ -207,4 +218,38 @@ TEST(BoxSamples, AreTheSameEachTimeWithoutTheHeap) {
     EXPECT_TRUE(count.calm_in_range());
     into.resize(std::size_t(count.result));
     EXPECT_TRUE(are_same(into, guesses(boxes)));
+}
+
+TEST(BoxSamples, WithoutWeightsAreAsManyAsTheRayIsLikelyToEndThere) {
+    // A nearer wall holds half of the rays' ends, the ground behind the other half.
+    Boxes const boxes{wall(10, 14), wall(20, 24)};
+    Samples<double> const samples = samples_in_boxes(some_view(), morning, boxes.data(), 2);
+    ASSERT_EQ(samples.count, max_samples);
+    int near_wall = 0, far_wall = 0;
+    for (int i = 0; i < samples.count; ++i) {
+        auto const& sample = samples.at[std::size_t(i)];
+        near_wall += contains(boxes[0], sample.point) ? 1 : 0;
+        far_wall += contains(boxes[1], sample.point) ? 1 : 0;
+        EXPECT_EQ(sample.normal, neutral_normal(some_view(), morning, sample.point));
+    }
+    EXPECT_EQ(near_wall, max_samples / 2);
+    EXPECT_EQ(far_wall, max_samples / 2);
+    // The only box of a ray has them all.
+    Samples<double> const alone = samples_in_boxes(some_view(), morning, boxes.data(), 1);
+    EXPECT_EQ(alone.count, max_samples);
+    for (int i = 0; i < alone.count; ++i) EXPECT_TRUE(contains(boxes[0], alone.at[std::size_t(i)].point));
+}
+
+TEST(BoxSamples, WithoutWeightsAreNoneOfBadInput) {
+    Boxes const boxes{wall(10, 14)};
+    ViewVolume<double> crossed = some_view(), endless = some_view();
+    std::swap(crossed.left, crossed.right);
+    endless.z_far = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(samples_in_boxes(crossed, morning, boxes.data(), 1).count, 0);
+    EXPECT_EQ(samples_in_boxes(endless, morning, boxes.data(), 1).count, 0);
+    EXPECT_EQ(samples_in_boxes(some_view(), directional(V3(0)), boxes.data(), 1).count, 0);
+    EXPECT_EQ(samples_in_boxes<double>(some_view(), morning, nullptr, 0).count, 0);
+    Aabb<double> no_box = wall(5, 6);
+    no_box.lo.y = no_number;
+    EXPECT_EQ(samples_in_boxes(some_view(), morning, &no_box, 1).count, 0);
 }

@@ -128,6 +128,25 @@ TYPED_TEST(CascadesOf, WarpedSlicesAreWarpedMaps) {
     for (auto const& c : this->fitted()) EXPECT_EQ(glm::length(Vec3<T>(row(c.map.clip_from_world, 3))), T(0));
 }
 
+TYPED_TEST(CascadesOf, EachMapHasItsShareOfTheWarp) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::warped;
+    auto const warped = this->fitted();
+    this->options.warp_less[1] = T(1);
+    this->options.warp_less[2] = T(0.5);
+    auto const mixed = this->fitted();
+    auto const growth = [](Cascade<T> const& c) { return glm::length(Vec3<T>(row(c.map.clip_from_world, 3))); };
+    for (int i : {0, 3}) EXPECT_EQ(mixed.at[i].map.clip_from_world, warped.at[i].map.clip_from_world) << i;
+    EXPECT_EQ(growth(mixed.at[1]), T(0));
+    EXPECT_GT(growth(mixed.at[2]), T(0));
+    EXPECT_LT(growth(mixed.at[2]), growth(warped.at[2]));
+    this->options.warp_less[1] = std::numeric_limits<T>::quiet_NaN();
+    auto const broken = this->fitted();
+    EXPECT_FALSE(broken.at[1].map.visible);
+    EXPECT_TRUE(broken.faults.has(Fault::not_finite));
+    EXPECT_TRUE(broken.at[2].map.visible);
+}
+
 TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {
     this->options.fit = CascadeFit::focus;
     auto const whole = this->fitted();
@@ -152,6 +171,32 @@ TYPED_TEST(CascadesOf, AnEndlessViewNeedsAShadowDistance) {
     auto const given = this->fitted();
     EXPECT_FALSE(given.faults.any());
     EXPECT_EQ(given.at[given.count - 1].range.end, TypeParam(250));
+}
+
+TYPED_TEST(CascadesOf, AnEndlessViewOfALargeUnitEndsAtTenThousandNearDistances) {
+    this->view.z_near = TypeParam(20);
+    this->view.z_far = std::numeric_limits<TypeParam>::infinity();
+    auto const cut = this->fitted();
+    EXPECT_EQ(cut.at[cut.count - 1].range.end, TypeParam(20) * TypeParam(1e4));
+}
+
+TYPED_TEST(CascadesOf, AKernelOfNegativeRadiusIsOneOfNone) {
+    this->options.filter_radius = 0;
+    auto const none = this->fitted();
+    this->options.filter_radius = -3;
+    auto const negative = this->fitted();
+    EXPECT_TRUE(negative.faults.has(Fault::clamped_option));
+    EXPECT_EQ(negative.at[0].map.clip_from_world, none.at[0].map.clip_from_world);
+}
+
+TYPED_TEST(CascadesOf, AFrameBeforeWithFewerMapsHelpsThoseThatItHad) {
+    this->options.count = 2;
+    auto const before = this->fitted();
+    this->options.count = 4;
+    auto const after = fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
+    auto const fresh = this->fitted();
+    EXPECT_EQ(after.count, 4);
+    for (int i = 2; i < 4; ++i) EXPECT_EQ(after.at[i].map.clip_from_world, fresh.at[i].map.clip_from_world);
 }
 
 TYPED_TEST(CascadesOf, APinnedFirstSplitEndsWhereItIsPinned) {
@@ -229,6 +274,20 @@ TYPED_TEST(CascadesOf, OptionsOutsideTheirRangesAreClampedAndSaid) {
     this->options.filter_radius = 1000000000;
     EXPECT_TRUE(this->fitted().faults.has(Fault::clamped_option));
     EXPECT_TRUE(this->fitted().at[0].map.visible);
+}
+
+TYPED_TEST(CascadesOf, ABlendOutsideItsRangeIsTheNearestOne) {
+    using T = TypeParam;
+    auto const with = [this](T blend) {
+        this->options.blend = blend;
+        return this->fitted();
+    };
+    auto const whole = with(T(1)), none = with(T(0));
+    EXPECT_FALSE(whole.faults.any()) << "from end to end is a blend too";
+    EXPECT_EQ(whole.at[1].range.blend_begin, whole.at[0].range.end);
+    EXPECT_EQ(none.at[1].range.blend_begin, none.at[1].range.end);
+    EXPECT_EQ(with(T(7)).at[1].range.blend_begin, whole.at[1].range.blend_begin);
+    EXPECT_EQ(with(T(-1)).at[1].range.blend_begin, none.at[1].range.blend_begin);
 }
 
 TYPED_TEST(CascadesOf, AMessyPoseWithinAThousandthIsMended) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 using namespace shadowmath;
 
@@ -53,6 +54,27 @@ TEST(Clipmap, GivesAMillionMetresAwayThePagesOfHere) {
     EXPECT_EQ(there.y - here.y, -(1 << 21));
 }
 
+TEST(Page, IsAnotherOneAsSoonAsOneNumberDiffers) {
+    Page const page{1, 2, 3};
+    EXPECT_TRUE(page == (Page{1, 2, 3}));
+    EXPECT_FALSE(page == (Page{2, 2, 3}));
+    EXPECT_FALSE(page == (Page{1, 9, 3}));
+    EXPECT_FALSE(page == (Page{1, 2, 9}));
+}
+
+TEST(PageAt, IsNoneOfALevelThatIsNotThereAndBeyondWhatCanBeCounted) {
+    ClipmapOptions<double> options;
+    options.levels = 3;
+    Clipmap<double> const map = clipmap(LightBasis<double>{}, V3(0.0), options);
+    for (int const level : {-1, 3, max_clip_levels}) {
+        EXPECT_EQ(page_at(map, level, V3(0.0)).level, -1) << level;
+        EXPECT_FALSE(holds(map, Page{level, 0, 0})) << level;
+    }
+    EXPECT_EQ(page_at(map, 0, V3(std::numeric_limits<double>::quiet_NaN())).level, -1);
+    EXPECT_EQ(page_at(map, 0, V3(1e300, 0, 0)).level, -1);
+    EXPECT_EQ(page_at(map, 0, V3(0, 0, 1e300)).level, -1);
+}
+
 TEST(PageFor, TakesTheTexelThatAPixelCanTell) {
     Clipmap<double> const map = clipmap(axes, V3(0.0), ClipmapOptions<double>{});
     EXPECT_EQ(page_for(map, V3(0.0), 0x1p-8).level, 0);
@@ -85,6 +107,13 @@ TEST(Clipmap, ClampsItsOptions) {
     EXPECT_TRUE(map.faults.has(Fault::clamped_option));
     EXPECT_EQ(map.count, max_clip_levels);
     EXPECT_EQ(map.level[0].map_size, 896);
+    for (auto const& [option, value] :
+         {std::pair(&ClipmapOptions<double>::levels, 0), std::pair(&ClipmapOptions<double>::map_size, 1000),
+          std::pair(&ClipmapOptions<double>::page_texels, 0)}) {
+        ClipmapOptions<double> one;
+        one.*option = value;
+        EXPECT_TRUE(clipmap(axes, V3(0.0), one).faults.has(Fault::clamped_option)) << value;
+    }
     odd.finest_metres = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(clipmap(axes, V3(0.0), odd).count, 0);
     odd.page_texels = 0;

@@ -100,6 +100,9 @@ TEST(CasterMask, OfAnEmptyBoxIsNothingAndOfABrokenOneEverything) {
     EXPECT_EQ(caster_mask(maps, Aabb<double>{V3(900), V3(901, 901, inf)}), 0b111);
     EXPECT_EQ(caster_mask(maps, Aabb<double>{V3(-most), V3(most)}), 0b111);
     EXPECT_EQ(caster_mask(maps, cube(V3(0), 1e17)), 0b111);
+    // Reach ends before 2^60 m.
+    EXPECT_EQ(caster_mask(maps, cube(V3(0x1p60, 0, 0), 0)), 0b111);
+    EXPECT_EQ(caster_mask(maps, cube(V3(0x1.fp59, 0, 0), 0)), 0);
 }
 
 TEST(CasterMask, OfAMapThatIsNotVisibleOrNotFiniteIsClearAndKeepsItsPlace) {
@@ -110,6 +113,17 @@ TEST(CasterMask, OfAMapThatIsNotVisibleOrNotFiniteIsClearAndKeepsItsPlace) {
     EXPECT_EQ(caster_mask(some, cube(V3(0, 5, 0))), 0b1010);
     EXPECT_EQ(caster_mask(some, cube(V3(0, std::numeric_limits<double>::infinity(), 0))), 0b1010);
     EXPECT_EQ(caster_mask(CasterMaps<double>{}, cube(V3(0, 5, 0))), 0);
+}
+
+TEST(CasterMask, OfAMapWhoseSideIsNoPlaneIsThatOfTheOtherSides) {
+    // Everything lands in the middle of the first map, and beside the second.
+    ShadowMap<double> maps[2] = {square(4), square(4)};
+    for (ShadowMap<double>& map : maps)
+        for (int column = 0; column < 4; ++column) map.clip_from_world[column][0] = 0.0;
+    maps[1].clip_from_world[3][0] = 2.0;
+    CasterMaps<double> const both = caster_maps(maps, 2);
+    EXPECT_EQ(caster_mask(both, cube(V3(900, 5, 0))), 0b01);
+    EXPECT_EQ(caster_mask(both, cube(V3(0, 5, 900))), 0);
 }
 
 TEST(CasterMask, TakesMapsThatLookDifferentWays) {
@@ -123,6 +137,15 @@ TEST(CasterMask, TakesMapsThatLookDifferentWays) {
     EXPECT_EQ(caster_mask(all, cube(V3(0, 5, 0))), 0xffff);
     EXPECT_EQ(caster_mask(all, cube(V3(8.75, 5, 0))), 0xff00);
 }
+
+#if defined(NDEBUG)
+TEST(CasterMaps, HoldNoMoreThanAMaskHasBits) {
+    CasterMaps<double> maps;
+    for (int i = 0; i < max_caster_maps + 3; ++i) add_map(maps, square(1));
+    EXPECT_EQ(maps.map_count, max_caster_maps);
+    EXPECT_EQ(caster_mask(maps, cube(V3(0, 5, 0))), 0xffff);
+}
+#endif
 
 TEST(CasterMaps, OfCascadesShareTheirNormals) {
     ViewVolume<float> const view = perspective_view(

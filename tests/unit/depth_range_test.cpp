@@ -96,6 +96,24 @@ TYPED_TEST(DepthRangeOf, AVolumeInsideTheBoxHasItsOwnDepths) {
     EXPECT_TRUE(this->close(range.hi, 20));
 }
 
+// No corner of either is inside the other but those far behind: what counts is where the view's edges pierce the face.
+TYPED_TEST(DepthRangeOf, AFacePiercedInItsMiddleIsTheNearestWhicheverAxisItIsOf) {
+    using T = TypeParam;
+    Aabb<T> const room{Vec3<T>(-30), Vec3<T>(30)};
+    for (int axis = 0; axis < 3; ++axis)
+        for (T const side : {T(-1), T(1)}) {
+            Vec3<T> eye(1, 2, 3), forward(0), up(0);
+            eye[axis] = T(-50) * side;
+            forward[axis] = side;
+            up[(axis + 1) % 3] = T(1);
+            auto const view = perspective_view(pose_looking(eye, forward, up), T(0.1), T(1), T(1), T(60));
+            auto const range = depths_inside(room, view);
+            ASSERT_TRUE(range.visible);
+            EXPECT_TRUE(this->close(range.lo, 20)) << axis << ' ' << double(side) << ' ' << double(range.lo);
+            EXPECT_TRUE(this->close(range.hi, 60));
+        }
+}
+
 TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
     using T = TypeParam;
     T const nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();
@@ -104,7 +122,7 @@ TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
     EXPECT_FALSE(this->range({Vec3<T>(nan), Vec3<T>(1)}, this->ground).visible);
     EXPECT_FALSE(this->range(this->tower, {Vec3<T>(-1), Vec3<T>(infinity)}).visible);
     EXPECT_FALSE(this->range(this->tower, {Vec3<T>(50), Vec3<T>(60)}).visible);
-    for (T const bad : {nan, infinity, std::numeric_limits<T>::max()}) {
+    for (T const bad : {nan, infinity, std::numeric_limits<T>::max(), T(4e18L)}) {
         LightBox<T> spoiled = this->sides;
         spoiled.hi.x = bad;
         EXPECT_FALSE(depth_range(spoiled, this->slice, this->tower, this->ground, false).visible);
@@ -123,6 +141,7 @@ TYPED_TEST(DepthRangeOf, PointsAndPlanesHaveAnExtentToo) {
     Aabb<T> const floor{Vec3<T>(-100, 0, -100), Vec3<T>(100, 0, 100)};
     EXPECT_TRUE(this->range(floor, floor).visible);
     EXPECT_TRUE(laws::is_a_range(this->range(floor, floor)));
+    EXPECT_GE(this->range(floor, floor).hi - this->range(floor, floor).lo, T(0.99e-6L)) << "a micrometre at least";
     EXPECT_TRUE(this->close(this->range(point, this->ground).lo, 0));
 }
 

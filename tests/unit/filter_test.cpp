@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/filter.hpp"
 
+#include <shadowmath/fit_crop.hpp>
 #include <shadowmath/light_box.hpp>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,28 @@ TEST(Filter, TapsFollowThePlaneAndNotThePoint) {
     EXPECT_LT(filtered(receiver, 16, plain, {2, false}, plane), 0.6);
 }
 
+TEST(Filter, WithoutThePlaneOfTheTapsComparesThePointsOwnDepth) {
+    Receiver<double> const receiver{Vec2<double>(8.25, 8.75), 0.5, {0.01, 0.02}};
+    EXPECT_EQ(filtered(receiver, 16, plain, {2, false}, [](int, int) { return 0.5; }), 1.0);
+    EXPECT_EQ(filtered(receiver, 16, plain, {2, false}, [](int, int) { return 0.4999; }), 0.0);
+}
+
+TEST(Visibility, ASurfaceThatFacesTheLampWantsNoBiasOfItsSlopeWhereverItLies) {
+    Light<double> const lamp = spot(Vec3<double>(0, 10, 0), Vec3<double>(0, -1, 0), 0.7, 20.0);
+    ShadowMap<double> map;
+    map.clip_from_world = spot_clip_from_world(lamp, 1.0, plain);
+    map.clip = plain;
+    map.visible = true;
+    MapBias<double> bias;
+    bias.slope_texels = 1.0;
+    for (Vec3<double> const& point : {Vec3<double>(5, 0, 0), Vec3<double>(0, 0, 5), Vec3<double>(-3, 1, 4)}) {
+        Vec3<double> const facing = glm::normalize(lamp.position - point);
+        double const depth = projected(texture_from_world(map), point).at.z;
+        EXPECT_NEAR(detail::seen_by(map, 1024, point, facing, bias, true).receiver.depth, depth, 1e-12);
+        EXPECT_LT(detail::seen_by(map, 1024, point, facing, bias, false).receiver.depth, depth - 1e-6);
+    }
+}
+
 TEST(Visibility, IsOneWhereAMapDoesNotHoldThePoint) {
     LightBox<double> box;
     ShadowMap<double> map;
@@ -118,4 +141,11 @@ TEST(Visibility, BiasIsInFavourOfLightInBothDepthOrders) {
         bias.constant = 0.011;
         EXPECT_EQ(visibility(map, 16, point, up, bias, {}, occluder), 1.0);
     }
+}
+
+TEST(Filter, OfASlopeThatIsNoNumberIsLit) {
+    auto const black = [](int, int) { return 0.0; };
+    for (DepthSlope<double> const& slope :
+         {DepthSlope<double>{not_a_number, 0.0}, DepthSlope<double>{0.0, not_a_number}})
+        EXPECT_EQ(filtered(Receiver<double>{Vec2<double>(8.0), 0.5, slope}, 16, plain, {1, true}, black), 1.0);
 }

@@ -68,3 +68,11 @@ TYPED_TEST(Finite, AHypotenuseOfTheSmallestAndTheLargestSidesIsRightToAnUlp) {
                 EXPECT_TRUE(laws::is_hypotenuse(detail::hypotenuse(-other, size), -other, size)) << size;
             }
 }
+
+TYPED_TEST(Finite, LooksAtAsManyNumbersAsItIsToldTo) {
+    using T = TypeParam;
+    T const numbers[] = {T(1), T(2), std::numeric_limits<T>::quiet_NaN()};
+    EXPECT_TRUE(all_finite(numbers, 0));
+    EXPECT_TRUE(all_finite(numbers, 2));
+    EXPECT_FALSE(all_finite(numbers, 3));
+}

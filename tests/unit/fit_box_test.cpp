@@ -94,6 +94,22 @@ TYPED_TEST(FitBox, StaysABoxWhateverIsGiven) {
     EXPECT_TRUE(laws::is_a_box(fit_box(LightBasis<T>{}, brick(Vec3<T>(T(-1e18L)), Vec3<T>(T(1e18L))), 100, T(2))));
 }
 
+TYPED_TEST(FitBox, BoundsBeyondReachHaveTheBoxOfNothing) {
+    using T = TypeParam;
+    T const farthest = detail::farthest_metres<T>;
+    LightBox<T> const nothing;
+    for (T const at : {T(2.5) * farthest, T(-2.5) * farthest, std::numeric_limits<T>::quiet_NaN()}) {
+        Aabb<T> body{Vec3<T>(T(-1)), Vec3<T>(T(1))};
+        (at < T(0) ? body.lo : body.hi).y = at;
+        LightBox<T> const box = box_around(LightBasis<T>{}, body, 100, T(2));
+        EXPECT_TRUE(box.lo == nothing.lo && box.hi == nothing.hi && box.depth_lo == nothing.depth_lo);
+    }
+    EXPECT_EQ(box_around(LightBasis<T>{}, Aabb<T>{}, 100, T(2)).hi, nothing.hi);
+    LightBasis<T> bent;
+    bent.y *= T(2);
+    EXPECT_EQ(box_around(bent, Aabb<T>{Vec3<T>(T(-9)), Vec3<T>(T(9))}, 100, T(2)).hi, nothing.hi);
+}
+
 TEST(Margin, NamesWhatIsWrongWithIt) {
     EXPECT_FALSE(faults_of_margin(3, 0.0).any());
     EXPECT_FALSE(faults_of_margin(7, 2.0).any());
@@ -105,6 +121,9 @@ TEST(Margin, NamesWhatIsWrongWithIt) {
     EXPECT_EQ(usable_texels(100, -10.0), 100.0);
     EXPECT_EQ(usable_texels(100, 1e300), 1.0);
     EXPECT_EQ(usable_texels(-5, 0.0), 1.0);
+    EXPECT_EQ(usable_texels(10, 4.75), 1.0) << "half a texel is one";
+    EXPECT_EQ(faults_of_margin(3, 0.5), Faults(Fault::map_too_small));
+    EXPECT_FALSE(faults_of_margin(4, 0.5).any());
 }
 
 // Not but for a rounding: with no margin at all each corner is inside, a kilometre out and told in long double.

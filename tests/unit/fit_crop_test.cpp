@@ -131,6 +131,49 @@ TYPED_TEST(FitCrop, ASpotZoomsInOnWhatIsSeen) {
     EXPECT_TRUE(this->fit(this->crate, tile).visible);
 }
 
+TYPED_TEST(FitCrop, ASpotZoomsInUntilTheConeWouldBeAMapSizeOfMapsWide) {
+    using T = TypeParam;
+    auto const scale = [](Mat4<T> const& m) { return double(glm::length(Vec3<T>(row(m, 0)))); };
+    Aabb<T> const point{Vec3<T>(0), Vec3<T>(0)};
+    double const usable = double(usable_texels(1024, T(2)));
+    double const whole = scale(spot_clip_from_world(this->lamp, T(8), ClipSpace{}));
+    EXPECT_NEAR(scale(this->fit(this->crate, point).clip_from_world) / whole, usable, 1);
+}
+
+TYPED_TEST(FitCrop, ASliceSmallerThanAMetreIsServed) {
+    using T = TypeParam;
+    this->view = perspective_view(pose_looking(Vec3<T>(0, T(0.3), 0), Vec3<T>(0, -1, 0), Vec3<T>(0, 0, 1)), T(0.5),
+                                  T(1), T(0.1), T(0.5));
+    auto const map = this->fit(this->crate, this->floor);
+    EXPECT_TRUE(map.visible);
+    EXPECT_TRUE(laws::serves(map, 1024, T(2), Vec3<T>(0), T(1e-3)));
+}
+
+TYPED_TEST(FitCrop, ReceiversNearerThanALampCastsAreInTheDark) {
+    using T = TypeParam;
+    // Nearer than 1/4096 of the range nothing casts.
+    Aabb<T> const fly{Vec3<T>(T(-0.001), T(10) - T(0.004), T(-0.001)), Vec3<T>(T(0.001), T(10) - T(0.002), T(0.001))};
+    this->view.pose = pose_looking(Vec3<T>(0, 10, 8), Vec3<T>(0, 0, -1), Vec3<T>(0, 1, 0));
+    EXPECT_FALSE(this->fit(this->crate, fly).visible);
+}
+
+TYPED_TEST(FitCrop, CastersInTheConeButBesideWhatIsSeenNeedNoMap) {
+    using T = TypeParam;
+    Aabb<T> const tile{Vec3<T>(-4, T(-0.1), -1), Vec3<T>(-3, 0, 1)}, beside{Vec3<T>(3, 1, -1), Vec3<T>(4, 2, 1)};
+    auto const map = this->fit(beside, tile);
+    EXPECT_FALSE(map.visible);
+    EXPECT_FALSE(map.faults.any());
+    EXPECT_TRUE(this->fit({Vec3<T>(-4, 1, -1), Vec3<T>(-3, 2, 1)}, tile).visible);
+}
+
+TYPED_TEST(FitCrop, AConeThatEndsAtTheFarthestOrTheLeastDistanceIsWithinReach) {
+    using T = TypeParam;
+    for (T const range : {detail::farthest_metres<T> / T(20), detail::least_metres<T>}) {
+        Light<T> const light = spot(Vec3<T>(0), Vec3<T>(0, -1, 0), T(0.7), range);
+        EXPECT_NE(spot_clip_from_world(light, range / T(2), gl_clip), nowhere<T>());
+    }
+}
+
 TYPED_TEST(FitCrop, ASpotServesEveryReceiverInEveryConvention) {
     using T = TypeParam;
     int served = 0;

@@ -31,6 +31,7 @@ TEST(FaceToward, IsTheFaceWhoseAxisIsNearest) {
     }
     EXPECT_EQ(face_toward(lamp, lamp), 0);
     EXPECT_EQ(face_toward(lamp, lamp + V3(1, 1, 1)), 0);
+    EXPECT_EQ(face_toward(lamp, lamp + V3(0, -2, 2)), 3) << "of two that are alike the earlier axis";
 }
 
 TEST(FitCube, ServesEachReceiverInTheMapOfItsFace) {
@@ -72,6 +73,14 @@ TEST(FitCube, SkipsTheFacesWithoutCasters) {
     EXPECT_TRUE(maps.face[3].visible);
     // Its near plane is above the table's top, four metres below the lamp.
     EXPECT_NEAR(maps.face[3].w_min, 4.0, 0.01);
+}
+
+TEST(FitCube, HandsOnThatReceiversAreNotFinite) {
+    Aabb<double> endless = hall;
+    endless.hi.x = std::numeric_limits<double>::infinity();
+    CubeMaps<double> const maps = fit_cube(hall_view(V3(0, 0, -1)), lamp, 25.0, hall, endless, 512, 2.0, gl_clip);
+    EXPECT_EQ(maps.visible_count, 0);
+    EXPECT_TRUE(maps.faults.has(Fault::not_finite));
 }
 
 TEST(FitCube, RefusesALampWithoutRange) {

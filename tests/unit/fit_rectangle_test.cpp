@@ -129,3 +129,14 @@ TEST(FitRectangle, OfNothingIsTheUnitBox) {
 TEST(FitRectangle, NeitherAllocatesNorRaisesAFlag) {
     EXPECT_TRUE(test::watched([] { return fit_rectangle(overhead, slice_seen(0.4), 1024, 2.0); }).calm_in_range());
 }
+
+TEST(FitRectangle, OfNoBodyOrNoBasisIsTheBoxOfNothingAndATurnByNothingNone) {
+    LightBasis<double> const basis;
+    LightBox<double> const nothing;
+    EXPECT_EQ(fit_rectangle(basis, ConvexBody<double>{}, 100, 2.0).hi, nothing.hi);
+    LightBasis<double> flat;
+    flat.x = Vec3<double>(0.0);
+    ConvexBody<double> const body = convex_body(Aabb<double>{Vec3<double>(-9.0), Vec3<double>(9.0)});
+    EXPECT_EQ(fit_rectangle(flat, body, 100, 2.0).hi, nothing.hi);
+    EXPECT_EQ(rolled(basis, 0.0, 0.0).x, basis.x);
+}

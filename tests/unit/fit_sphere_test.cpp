@@ -110,6 +110,35 @@ TYPED_TEST(FitSphere, ScalesFromMicrometresToLightYears) {
     }
 }
 
+// In view space, where a corner is what its side says: relative to a depth of a kilometre the ball is a metre.
+TYPED_TEST(FitSphere, OfAThinSliceFarAwayHoldsItsCornersWhateverItsCentreRoundedTo) {
+    using T = TypeParam;
+    using Wide = long double;
+    for (int i = 0; i < 300; ++i) {
+        ViewVolume<T> slice = this->view(T(999) + T(i) / T(400), T(1000), T(0.0005) + T(i) * T(7e-6));
+        if (i % 2 == 1) slice.top *= T(1.25);
+        auto const ball = detail::ball_in_view(slice);
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            Wide const depth = (corner & 4u) != 0 ? slice.z_far : slice.z_near;
+            Vec3<Wide> const at(Wide((corner & 1u) != 0 ? slice.right : slice.left) * depth,
+                                Wide((corner & 2u) != 0 ? slice.top : slice.bottom) * depth, depth);
+            EXPECT_LE(glm::length(at - Vec3<Wide>(ball.center) * Wide(ball.unit)), Wide(ball.radius_metres)) << i;
+        }
+    }
+}
+
+TYPED_TEST(FitSphere, OfASliceThatEndsAtTheFarthestDistanceHasARadius) {
+    using T = TypeParam;
+    ViewVolume<T> slice;
+    slice.left = slice.bottom = T(-1);
+    slice.right = slice.top = T(1);
+    slice.z_near = T(1);
+    slice.z_far = detail::farthest_metres<T>;
+    EXPECT_GT(bounding_sphere(slice).radius, T(0));
+    slice.top = T(1.01);
+    EXPECT_EQ(bounding_sphere(slice).radius, T(0)) << "its corners do not";
+}
+
 TYPED_TEST(FitSphere, OfABadSliceHasNoRadius) {
     using T = TypeParam;
     T const nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();

@@ -174,3 +174,14 @@ TEST(Footprint, SurvivesFloatsSmallestAndLargestMaps) {
         EXPECT_NEAR(same.minor, 0.5f, 1e-6f);
     }
 }
+
+TEST(Footprint, OfAMapWithoutTexelsIsTheLimit) {
+    Mat4<double> const map = uniform_map(n, f);
+    auto const of = [&](double map_texels) {
+        return footprint(eye(), Vec2<double>(pixels), map, map_texels, Vec3<double>(3, 0, 0), Vec3<double>(-1, 1, 0));
+    };
+    EXPECT_LT(of(texels).major, 100.0);
+    for (double const none :
+         {0.0, -texels, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_EQ(of(none).major, footprint_limit<double>) << none;
+}

@@ -72,6 +72,64 @@ TEST(Gpu, AMapThatFloatCannotHoldServesNothing) {
     EXPECT_EQ(gpu.clip_from_world, nowhere<float>());
 }
 
+TEST(Gpu, AMapThatIsNotVisibleOrWhoseWFloatCannotHoldServesNothing) {
+    ShadowMap<double> map;
+    map.clip_from_world = Mat4<double>(1.0);
+    EXPECT_EQ(gpu_shadow_map(map).visible, 0);
+    map.visible = true;
+    map.w_min = 1e300;
+    EXPECT_EQ(gpu_shadow_map(map).visible, 0);
+    EXPECT_EQ(gpu_shadow_map(map).w_min, GpuShadowMap{}.w_min);
+}
+
+TEST(Gpu, ABiasThatFloatCannotHoldIsNone) {
+    ShadowMap<double> map;
+    map.clip_from_world = Mat4<double>(1.0);
+    map.clip = gl_zero_to_one_clip;
+    map.visible = true;
+    Light<double> const sun = directional(Vec3<double>(0, 0, 1));
+    BiasOptions<double> options;
+    EXPECT_GT(gpu_map(map, sun, 512, options).bias.constant, 0.0f);
+    options.metres = 1e300;
+    GpuCascade const none = gpu_map(map, sun, 512, options);
+    EXPECT_EQ(none.bias.constant, GpuMapBias{}.constant);
+    EXPECT_EQ(none.bias.slope_limit, GpuMapBias{}.slope_limit);
+    EXPECT_EQ(none.map.visible, 1) << "the map itself is as good as before";
+}
+
+TEST(Gpu, APenumbraThatFloatCannotHoldIsHard) {
+    MapPenumbra<double> penumbra;
+    penumbra.rim_x = Vec4<double>(0.25, 0, 0, 0);
+    penumbra.rim_y = Vec4<double>(0, 0.5, 0, 0);
+    penumbra.depth_of_gap = 2.0;
+    penumbra.largest_gap = 3.0;
+    GpuMapPenumbra const gpu = gpu_penumbra(penumbra);
+    EXPECT_EQ(gpu.rim_x.x, 0.25f);
+    EXPECT_EQ(gpu.rim_y.y, 0.5f);
+    EXPECT_EQ(gpu.depth_of_gap, 2.0f);
+    EXPECT_EQ(gpu.largest_gap, 3.0f);
+    auto const is_hard = [](MapPenumbra<double> const& of) {
+        GpuMapPenumbra const it = gpu_penumbra(of);
+        return it.rim_x == Vec4<float>(0.0f) && it.rim_y == Vec4<float>(0.0f) && it.depth_of_gap == 1.0f;
+    };
+    for (double const bad : {1e300, std::numeric_limits<double>::quiet_NaN()}) {
+        for (double Vec4<double>::*axis : {&Vec4<double>::x, &Vec4<double>::w})
+            for (Vec4<double> MapPenumbra<double>::*rim : {&MapPenumbra<double>::rim_x, &MapPenumbra<double>::rim_y}) {
+                MapPenumbra<double> spoilt = penumbra;
+                spoilt.*rim.*axis = bad;
+                EXPECT_TRUE(is_hard(spoilt));
+            }
+        for (double MapPenumbra<double>::*number :
+             {&MapPenumbra<double>::depth_of_gap, &MapPenumbra<double>::largest_gap}) {
+            MapPenumbra<double> spoilt = penumbra;
+            spoilt.*number = bad;
+            EXPECT_TRUE(is_hard(spoilt));
+        }
+    }
+    penumbra.depth_of_gap = 1e-300;
+    EXPECT_TRUE(is_hard(penumbra)) << "zero, in a float";
+}
+
 TEST(Gpu, NoCascadesAreNone) {
     GpuCascades const gpu = gpu_cascades(Cascades<float>{}, directional(Vec3<float>(0.0f)), CascadeOptions<float>{});
     EXPECT_EQ(gpu.count, 0);
@@ -79,3 +137,12 @@ TEST(Gpu, NoCascadesAreNone) {
 }
 
 }  // namespace
+
+TEST(Gpu, HoldsAsManyMapsAsThereCanBe) {
+    Cascades<float> cascades;
+    cascades.count = max_splits;
+    cascades.at[max_splits - 1].range.end = 7.0f;
+    GpuCascades const gpu = gpu_cascades(cascades, directional(Vec3<float>(0, -1, 0)), CascadeOptions<float>{});
+    EXPECT_EQ(gpu.count, max_splits);
+    EXPECT_EQ(gpu.ranges.end[max_splits - 1], 7.0f);
+}

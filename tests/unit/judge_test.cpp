@@ -97,6 +97,24 @@ TEST(Judge, TellsTheMapsApart) {
     EXPECT_EQ(judgement.map[4].count, 0);
 }
 
+TEST(Judge, ItsPriceIsTheMeanOfWhatEachPointCosts) {
+    ViewVolume<double> const view = narrow_view(1.0, 1000.0);
+    Samples<double> const samples = on_the_axis(view);
+    auto const cascades = fit_cascades(view, overhead, everything, everything, plain(1));
+    auto const judgement = judge(cascades, 64, view, pixels, samples.at.data(), samples.count);
+    double price = 0.0;
+    for (int i = 0; i < samples.count; ++i) {
+        auto const& sample = samples.at[static_cast<std::size_t>(i)];
+        double const major = footprint(clip_from_world(view, ClipSpace{}), pixels, cascades.at[0].map.clip_from_world,
+                                       64.0, sample.point, sample.normal)
+                                 .major;
+        price += price_of(major) / samples.count;
+    }
+    EXPECT_NEAR(judgement.all.price, price, 1e-9 * price);
+    EXPECT_LT(judgement.all.price, 0.5 * judgement.all.mean) << "lost points cost no more than lost ones";
+    EXPECT_TRUE(laws::adds_up(judgement));
+}
+
 TEST(Judge, CountsWhatNoMapHolds) {
     ViewVolume<double> const view = narrow_view(1.0, 100.0);
     Samples<double> const samples = on_the_axis(view);

@@ -56,6 +56,17 @@ TEST(LightBox, RebasedFarFromTheOriginKeepsFloatTexelsStill) {
     EXPECT_NEAR(at.y, wanted.y, 5e-7);
 }
 
+TEST(LightBox, WhoseMatrixWouldOverflowInOneConventionIsNowhereThere) {
+    // Its depth is a denormal; as a fuzzer found it.
+    LightBox<float> box;
+    box.depth_lo = 5.6678e-41f;
+    box.depth_hi = 3.5959e-39f;
+    box.basis.depth = Vec3<float>(0, -1, 0);
+    EXPECT_TRUE(all_finite(clip_from_world(box, gl_zero_to_one_clip)));
+    EXPECT_NE(clip_from_world(box, gl_zero_to_one_clip), nowhere<float>());
+    EXPECT_EQ(clip_from_world(box, gl_clip), nowhere<float>());
+}
+
 TEST(LightBox, WithoutExtentIsNowhereAndDividesNothingByZero) {
     for (int side = 0; side < 3; ++side) {
         LightBox<float> box;

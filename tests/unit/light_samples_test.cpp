@@ -193,6 +193,11 @@ TEST(LightSamples, PointsThatAreNotSeenAreUnusable) {
         }
 }
 
+TEST(LightSamples, AnySizeOfAPictureWillDo) {
+    EXPECT_TRUE(light_sampler(some_view(), morning, V2(1, 1), V2(1, 1)).usable);
+    EXPECT_TRUE(light_sampler(some_view(), morning, V2(0.5, 0.5), V2(0.25, 0.25)).usable);
+}
+
 TEST(LightSamples, ASamplerOfBadInputIsUnusableAndSoAreItsSamples) {
     ViewVolume<double> const view = some_view();
     SurfacePoint<double> const surface{point_at(view, 0.1, 0.1, 5.0), V3(0, 1, 0)};
@@ -212,6 +217,7 @@ TEST(LightSamples, ASamplerOfBadInputIsUnusableAndSoAreItsSamples) {
     samplers.push_back(light_sampler(view, directional(V3(no_number)), picture, cells));
     samplers.push_back(light_sampler(view, spot(V3(0, 9, 0), V3(0, -1, 0), 0.5, 30.0), picture, cells));
     samplers.push_back(light_sampler(view, morning, V2(std::numeric_limits<double>::max(), 1080), V2(1e-300, 27)));
+    samplers.push_back(light_sampler(view, morning, picture, V2(1e-308, 27)));
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         EXPECT_FALSE(samplers[i].usable) << i;
         EXPECT_TRUE(is_unusable(light_sample(samplers[i], surface))) << i;

@@ -79,3 +79,24 @@ TEST(Light, AHandMadeLightIsJudgedToo) {
     EXPECT_TRUE(faults_of(bad).has(Fault::not_finite));
     EXPECT_TRUE(unusable(bad));
 }
+
+TEST(Light, NamesWhicheverNumberIsNone) {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    Light<double> const good = spot(Vec3<double>(0, 5, 0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    EXPECT_FALSE(faults_of(good).any());
+    for (double Light<double>::*number : {&Light<double>::half_angle_radians, &Light<double>::range}) {
+        Light<double> bad = good;
+        bad.*number = nan;
+        EXPECT_TRUE(faults_of(bad).has(Fault::not_finite));
+    }
+    for (Vec3<double> Light<double>::*vector : {&Light<double>::position, &Light<double>::direction}) {
+        Light<double> bad = good;
+        (bad.*vector).z = nan;
+        EXPECT_TRUE(faults_of(bad).has(Fault::not_finite));
+    }
+}
+
+TEST(Light, OfAnyRangeAboveNoneIsOne) {
+    EXPECT_FALSE(spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 0.25).faults.any());
+    EXPECT_TRUE(spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 0.0).faults.has(Fault::empty_range));
+}

@@ -2,6 +2,8 @@
 #include "tests/laws/map_ray.hpp"
 #include "tests/support/every_map.hpp"
 
+#include <shadowmath/light_box.hpp>
+
 #include <gtest/gtest.h>
 
 using namespace shadowmath;
@@ -86,4 +88,23 @@ TYPED_TEST(MapRayOf, WhatIsNoMapHasNoRay) {
     EXPECT_EQ(light_error_radians(map, directional(Vec3<T>(T(0))), point), pi) << "no light";
     EXPECT_EQ(light_error_radians(map, spot(point, Vec3<T>(T(0), T(0), T(1)), T(0.5), T(10)), point), pi)
         << "the lamp is the point";
+}
+
+TEST(MapRay, OfAMapWithoutDepthIsNone) {
+    ShadowMap<double> map;
+    map.clip_from_world = Mat4<double>(1.0);
+    map.visible = true;
+    EXPECT_TRUE(map_ray(map, Vec3<double>(0.0)).ok);
+    map.clip_from_world[2][2] = 0.0;
+    EXPECT_FALSE(map_ray(map, Vec3<double>(0.0)).ok) << "all depths are stored as one";
+}
+
+TEST(MapRay, AtTheLampItselfThereIsNoLightAndHalfAMetreBeforeItThereIs) {
+    Light<double> const lamp = spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    ShadowMap<double> map;
+    map.visible = true;
+    map.clip_from_world = clip_from_world(LightBox<double>{}, map.clip);  // any: along y, as the lamp
+    double const pi = 3.14159265358979323846;
+    EXPECT_NEAR(light_error_radians(map, lamp, Vec3<double>(0.0)), pi, 1e-15);
+    EXPECT_NEAR(light_error_radians(map, lamp, Vec3<double>(0, -0.5, 0)), 0.0, 1e-15);
 }

@@ -67,3 +67,22 @@ TEST(Moments, MeanIsThatOfTheBoxAndOutsideIsWhatIsAskedFor) {
     EXPECT_EQ(at(1e30, 0.0), 2.0);
     EXPECT_EQ(at(not_a_number, 0.0), 2.0);
 }
+
+TEST(Moments, MeanOfABadMapOrPlaceIsThatOfTheOutside) {
+    auto const inside = [](int x, int y) {
+        EXPECT_TRUE(x >= 0 && y >= 0 && x < 16 && y < 16) << x << ' ' << y;
+        return 5.0;
+    };
+    Vec2<double> const middle(8.0, 8.0);
+    EXPECT_EQ(mean_moments(middle, 16, 1, 1.0, inside), 5.0);
+    for (int const size : {0, -4, largest_map_size + 1}) EXPECT_EQ(mean_moments(middle, size, 1, 1.0, inside), 1.0);
+    EXPECT_EQ(mean_moments(Vec2<double>(std::numeric_limits<double>::quiet_NaN(), 8.0), 16, 1, 1.0, inside), 1.0);
+    EXPECT_EQ(mean_moments(middle, 16, -3, 1.0, inside), 5.0) << "a negative radius is 0";
+    EXPECT_NEAR(mean_moments(middle, 16, 1000000, 1.0, inside),
+                mean_moments(middle, 16, largest_filter_radius, 1.0, inside), 1e-12);
+    for (Vec2<double> const& corner : {Vec2<double>(0, 0), Vec2<double>(16, 0), Vec2<double>(0, 16)})
+        EXPECT_NEAR(mean_moments(corner, 16, 2, 1.0, inside), 2.0, 1e-12) << "a quarter of the box is in the map";
+    for (Vec2<double> const& beside :
+         {Vec2<double>(-2.1, 8), Vec2<double>(18.1, 8), Vec2<double>(8, -2.1), Vec2<double>(8, 18.1)})
+        EXPECT_EQ(mean_moments(beside, 16, 1, 1.0, inside), 1.0);
+}

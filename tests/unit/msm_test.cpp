@@ -84,3 +84,11 @@ TEST(Msm, MassBeforeAnAtomIsThatOfTheLowerOnes) {
     EXPECT_NEAR(detail::mass_before(moments, 0.75, -0.5, 0.5), 1.0, 1e-15);
     EXPECT_EQ(detail::mass_before(moments, -0.5, -0.5, 0.5), 0.0);
 }
+
+TEST(Msm, ABiasOutsideItsRangeIsTheNearestOne) {
+    Vec4<double> const moments = msm_moments(0.4);
+    double const least = msm_visibility(moments, 0.6, 0.0);
+    EXPECT_EQ(msm_visibility(moments, 0.6, -1.0), least);
+    EXPECT_EQ(msm_visibility(moments, 0.6, std::numeric_limits<double>::quiet_NaN()), least);
+    EXPECT_EQ(msm_visibility(moments, 0.6, 7.0), msm_visibility(moments, 0.6, 0.1));
+}

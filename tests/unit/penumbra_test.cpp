@@ -73,3 +73,30 @@ TEST(Penumbra, OfBadNumbersIsHard) {
     EXPECT_EQ(gap_of_metres(lamp, Vec3<double>(not_a_number), 1.0), 0.0);
     EXPECT_EQ(metres_of_gap(lamp, Vec3<double>(0.0), not_a_number), 0.0);
 }
+
+TEST(Penumbra, OfAMapHasNoKernelWithoutAMapAPlaceOrAGap) {
+    MapPenumbra<double> penumbra;
+    penumbra.rim_x = Vec4<double>(0.25, 0, 0, 0);
+    penumbra.rim_y = Vec4<double>(0, 0.5, 0, 0);
+    Vec4<double> const place(0.5, 0.5, 0.5, 1.0), behind(0.5, 0.5, 0.5, 0.0);
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(kernel_texels(penumbra, place, 100, 0.1), Vec2<double>(2.5, 5.0));
+    EXPECT_EQ(kernel_texels(penumbra, place, 0, 0.1), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, behind, 100, 0.1), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, Vec4<double>(nan), 100, 0.1), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, place, 100, nan), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, place, 100, std::numeric_limits<double>::max()), Vec2<double>(0.0)) << "no end";
+}
+
+TEST(Penumbra, OfALampBeyondAllNumbersHasNoMetres) {
+    float const most = std::numeric_limits<float>::max();
+    Light<float> const lamp = spot(Vec3<float>(most), Vec3<float>(0, -1, 0), 0.5f, 10.0f);
+    EXPECT_EQ(metres_of_gap(lamp, Vec3<float>(-most), 1.0f), 0.0f);
+    Light<double> const sun = directional(Vec3<double>(0, -1, 0));
+    ShadowMap<double> map;
+    map.clip_from_world = clip_from_world(LightBox<double>{}, map.clip);
+    map.visible = true;
+    EXPECT_NE(penumbra_for(map, sun, 0.01).rim_x, Vec4<double>(0.0));
+    EXPECT_EQ(penumbra_for(map, sun, std::numeric_limits<double>::infinity()).rim_x, Vec4<double>(0.0));
+    EXPECT_EQ(penumbra_for(ShadowMap<double>{}, sun, 0.01).rim_x, Vec4<double>(0.0));
+}

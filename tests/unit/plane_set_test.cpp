@@ -96,9 +96,13 @@ TEST(ChoosePlanes, HaveNothingToChooseWithoutPointsOrLight) {
     EXPECT_EQ(choose_planes(view, directional(V3(0.0)), points.data(), count_of(points)).count, 0);
     // From below and behind, no sample is lit.
     EXPECT_EQ(choose_planes(view, directional(V3(0, 1, 1)), points.data(), count_of(points)).count, 0);
-    PlaneSetOptions<double> options;
-    options.good_pixels = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 0);
+    for (double PlaneSetOptions<double>::*option :
+         {&PlaneSetOptions<double>::good_pixels, &PlaneSetOptions<double>::least_share,
+          &PlaneSetOptions<double>::hysteresis}) {
+        PlaneSetOptions<double> options;
+        options.*option = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 0);
+    }
 }
 
 TEST(ChoosePlanes, NeitherAllocateNorRaiseAFlag) {
@@ -142,8 +146,10 @@ TEST(ByFootprint, OfMapsOnFloorAndWallIsFinerThanEitherAndThanTheCascadeBehindTh
     for (int alone = 0; alone < 2; ++alone) EXPECT_LT(together, 0.85 * mean(alone, 1)) << alone;
     EXPECT_LT(together, 0.3 * mean(2, 1)) << "the cascade";
     std::array<int, 3> used{};
-    for (auto const& p : points)
-        ++used[std::size_t(by_footprint(maps.data(), 3, size, 2.0, eye, picture, p.point, p.normal).first)];
+    for (auto const& p : points) {
+        int const map = by_footprint(maps.data(), 3, size, 2.0, eye, picture, p.point, p.normal).first;
+        if (map >= 0) ++used[std::size_t(map)];
+    }
     EXPECT_GT(used[0], 100);
     EXPECT_GT(used[1], 100);
 }

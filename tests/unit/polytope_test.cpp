@@ -32,6 +32,18 @@ TEST(Polytope, OfABoxHasTwelveEdgesAndEightVertices) {
     EXPECT_TRUE(laws::is_a_polyhedron(body));
 }
 
+TEST(Polytope, OfABoxHasItsPlanesToTheBitEvenWhereItIsFlat) {
+    Aabb<double> const flat{V3(-0.3, 2, 0.7), V3(5.1, 2, 9)};
+    ConvexBody<double> const body = convex_body(flat);
+    ASSERT_EQ(body.face_count, 6);
+    for (int axis = 0; axis < 3; ++axis) {
+        V3 normal(0.0);
+        normal[axis] = 1.0;
+        EXPECT_EQ(body.half_space[static_cast<unsigned>(2 * axis)], V4(normal, -flat.lo[axis]));
+        EXPECT_EQ(body.half_space[static_cast<unsigned>(2 * axis + 1)], V4(-normal, flat.hi[axis]));
+    }
+}
+
 TEST(Polytope, LosesACornerToAPlane) {
     // x + y + z <= 2.5 cuts (1, 1, 1) off: one triangle more, 12 + 3 edges, 8 - 1 + 3 vertices.
     ConvexBody<double> const body = clipped(convex_body(corners(unit_box)), V4(-1, -1, -1, 2.5));

@@ -93,6 +93,14 @@ TEST(QuadMap, TexelsAreGainedAsByDifferences) {
     EXPECT_NEAR(glm::length((texel(p + V2(0, h)) - texel(p - V2(0, h))) / (2 * h) - gain.y), 0.0, 1e-5);
 }
 
+TEST(QuadMap, OfNoQuadrilateralServesNothing) {
+    ShadowMap<double> const map = quad_map(Quad<double>{}, light_basis(V3(0, -1, 0)), V3(0.0), 0.0, 1.0,
+                                           Aabb<double>{V3(-1.0), V3(1.0)}, 512, 2.0, gl_clip);
+    EXPECT_FALSE(map.visible);
+    EXPECT_FALSE(map.faults.any());
+    EXPECT_EQ(map.clip_from_world, nowhere<double>());
+}
+
 TEST(QuadMap, IsAMapOfItsLightInEveryConvention) {
     Light<double> const light = directional(V3(0.3, -0.8, 0.5));
     LightBasis<double> const basis = light_basis(light.direction);

@@ -150,3 +150,66 @@ TEST(ProjectedBounds, OfWhatIsNotFiniteAreEmpty) {
     EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(1.0f), corners(box), nan)));
     EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(1.0f), corners(Aabb<float>{glm::vec3(nan), glm::vec3(1)}), 0.1f)));
 }
+
+TEST(Region, OfBoundsIsTheirTwoSides) {
+    Region<double> const region = region_of(Aabb<double>{Vec3<double>(-0.5, 0.25, -9.0), Vec3<double>(0.75, 1.0, 9.0)});
+    EXPECT_EQ(region.lo, Vec2<double>(-0.5, 0.25));
+    EXPECT_EQ(region.hi, Vec2<double>(0.75, 1.0));
+}
+
+TEST(Region, IsEmptyAsSoonAsOneAxisHasNoLength) {
+    EXPECT_FALSE(is_empty(Region<double>{Vec2<double>(0.0), Vec2<double>(1.0)}));
+    EXPECT_TRUE(is_empty(Region<double>{Vec2<double>(0.0), Vec2<double>(0.0, 1.0)}));
+    EXPECT_TRUE(is_empty(Region<double>{Vec2<double>(0.0), Vec2<double>(1.0, 0.0)}));
+    for (int end = 0; end < 2; ++end) {
+        Region<double> bad{Vec2<double>(0.0), Vec2<double>(1.0)};
+        (end == 0 ? bad.lo : bad.hi).y = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_EQ(region_matrix(bad), Mat4<double>(1.0));
+    }
+}
+
+TEST(Tile, IsBadWhicheverOfItsNumbersIs) {
+    Tile const good{4, 4, 8, 32, 16};
+    EXPECT_FALSE(faults_of(good).any());
+    for (int Tile::*number : {&Tile::x, &Tile::y, &Tile::size, &Tile::atlas_width, &Tile::atlas_height}) {
+        Tile bad = good;
+        bad.*number = -1;
+        EXPECT_TRUE(faults_of(bad).has(Fault::bad_region));
+    }
+    for (int Tile::*place : {&Tile::x, &Tile::y}) {
+        Tile beyond = good;
+        beyond.*place = 25;
+        EXPECT_TRUE(faults_of(beyond).has(Fault::bad_region));
+    }
+}
+
+TEST(ProjectedBounds, OfManyBoxesAreThoseOfEachMergedWhateverTheMatrix) {
+    float const columns[6][3] = {{-1, 2, 5}, {-2, 0, 4}, {-9, -6, 7},
+                                 {1, 3, 4},  {0, 1, 5},  {-5, -4, 8}};  // the last: none
+    BoxArrays<float> const boxes{columns[0], columns[1], columns[2], columns[3], columns[4], columns[5]};
+    glm::mat4 small(1.0f), perspective(1.0f), large(1.0f), behind(1.0f);
+    perspective[2][3] = -1.0f;
+    perspective[3][3] = 0.0f;
+    large[0][0] = 1e16f;
+    behind[3][3] = -1.0f;
+    for (glm::mat4 const& matrix : {small, perspective, large, behind})
+        for (float const w_min : {0.5f, 0.0f, 2.0f, -1.0f}) {
+            Aabb<float> merged;
+            for (int i = 0; i < 2; ++i) {
+                auto const one = projected_bounds(matrix, corners(box_at(boxes, i)), w_min);
+                if (!is_empty(one)) merged = merge(merged, one);
+            }
+            auto const all = projected_bounds(matrix, boxes, 3, w_min);
+            ASSERT_EQ(is_empty(all), is_empty(merged)) << w_min;
+            if (is_empty(all)) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_NEAR(all.lo[axis], merged.lo[axis], 1e-5f * std::abs(merged.lo[axis])) << w_min << ' ' << axis;
+                EXPECT_NEAR(all.hi[axis], merged.hi[axis], 1e-5f * std::abs(merged.hi[axis])) << w_min << ' ' << axis;
+            }
+        }
+    float const nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(is_empty(projected_bounds(glm::mat4(nan), boxes, 2, 0.5f)));
+    EXPECT_TRUE(is_empty(projected_bounds(small, boxes, 2, nan)));
+    EXPECT_TRUE(is_empty(projected_bounds(small, boxes, 0, 0.5f)));
+    EXPECT_TRUE(is_empty(projected_bounds(small, boxes, -1, 0.5f)));
+}

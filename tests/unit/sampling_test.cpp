@@ -94,3 +94,11 @@ TEST(Shade, ShadowTakesDiffuseAndSpecularButNotAmbient) {
     EXPECT_EQ(shade(ambient, diffuse, specular, 1.0, albedo), (ambient + (diffuse + specular)) * albedo);
     EXPECT_EQ(shade(ambient, diffuse, specular, 0.5, albedo), (ambient + (diffuse + specular) * 0.5) * albedo);
 }
+
+TEST(Contains, OfAMapOfOneTexelIsTheWholeMapAndOfAPointBehindItNothing) {
+    ShadowMap<double> map = map_of_half_width(4);
+    Vec3<double> const inside(0, -5, 0);
+    EXPECT_TRUE(contains(map, 1, 0.0, inside));
+    map.clip_from_world[3][3] = -1.0;
+    EXPECT_FALSE(contains(map, 16, 0.0, inside));
+}

@@ -33,3 +33,21 @@ TEST(MapsDue, IncludeWhatHasChangedAndNothingBeyondTheCount) {
     EXPECT_EQ(maps_due(0, 1), 1u);
     EXPECT_NE(maps_due(0, 32), 0u);
 }
+
+TEST(MapsDue, OfThirtyTwoMapsAreAmongThem) {
+    EXPECT_EQ(maps_due(0, 32) & 1u, 1u);
+    EXPECT_EQ(maps_due(0, 32, ~0u), ~0u);
+    EXPECT_EQ(maps_due(0, 31, ~0u), 0x7fffffffu);
+    EXPECT_EQ(maps_due(0, 0, ~0u), 0u);
+    EXPECT_EQ(maps_due(0, -1, ~0u), 0u);
+}
+
+TEST(FramesBetween, AreOneForTheFirstMapAndForOneAlone) {
+    EXPECT_EQ(frames_between(0, 4), 1);
+    EXPECT_EQ(frames_between(-1, 4), 1);
+    EXPECT_EQ(frames_between(3, 1), 1);
+    EXPECT_EQ(frames_between(3, 0), 1);
+    EXPECT_EQ(frames_between(1, 2), 1);
+    EXPECT_EQ(frames_between(2, 9), 4);
+    EXPECT_EQ(frames_between(40, 99), 1 << 30) << "no longer than an int can count";
+}

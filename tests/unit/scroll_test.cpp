@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 using namespace shadowmath;
 
 namespace {
@@ -70,4 +72,48 @@ TEST(Unchanged, SeesASingleBit) {
     moved = map;
     moved.visible = false;
     EXPECT_FALSE(unchanged(map, moved));
+}
+
+TEST(Unchanged, SeesAnotherConvention) {
+    ShadowMap<double> map;
+    map.visible = true;
+    for (ClipSpace const clip : {reversed(map.clip), vulkan_clip}) {
+        ShadowMap<double> other = map;
+        other.clip = clip;
+        EXPECT_FALSE(unchanged(map, other));
+    }
+}
+
+TEST(Scroll, KeepsNothingWhereTheLightTurnedByABit) {
+    TexelGrid<double> const before = window_at(0.0, 0.0);
+    for (V3 LightBasis<double>::*axis : {&LightBasis<double>::x, &LightBasis<double>::y, &LightBasis<double>::depth}) {
+        TexelGrid<double> after = before;
+        (after.basis.*axis).z = std::nextafter((after.basis.*axis).z, 9.0);
+        EXPECT_FALSE(scroll_between(before, after).kept);
+        EXPECT_EQ(scroll_between(before, after).fresh.count, 1);
+    }
+}
+
+TEST(Wrapped, LeavesOutARectangleThatIsLargerThanTheMap) {
+    TexelGrid<double> const grid = window_at(3.0, 2.0);
+    EXPECT_EQ(wrapped(grid, TexelRect{0, 0, 17, 1}).count, 0);
+    EXPECT_EQ(wrapped(grid, TexelRect{0, 0, 1, 17}).count, 0);
+}
+
+TEST(TexelRects, HoldNoMoreThanTheyHaveRoomFor) {
+    TexelRects<2> rects;
+    for (int i = 0; i < 3; ++i) rects.add({i, 0, 1, 1});
+    rects.add({0, 0, 0, 5});
+    EXPECT_EQ(rects.count, 2);
+    EXPECT_EQ(rects.at[1].x, 1);
+}
+
+TEST(Scroll, ByItsWholeSizeKeepsNothing) {
+    TexelGrid<double> const before = window_at(0.0, 0.0);
+    for (auto const& [x, y] : {std::pair(8.0, 0.0), std::pair(-8.0, 0.0), std::pair(0.0, 8.0), std::pair(0.0, -8.0)}) {
+        Scroll const scroll = scroll_between(before, window_at(x, y));
+        EXPECT_FALSE(scroll.kept);
+        ASSERT_EQ(scroll.fresh.count, 1);
+        EXPECT_EQ(scroll.fresh.at[0].width * scroll.fresh.at[0].height, 256);
+    }
 }

@@ -161,6 +161,22 @@ TYPED_TEST(Sdsm, BadInputsAreFaults) {
     EXPECT_TRUE(fit_samples(sunless, bounds, brick<T>(), options).faults.has(Fault::zero_light));
 }
 
+TYPED_TEST(Sdsm, SamplesBeyondTheFarthestDistanceSayThatPrecisionIsLost) {
+    using T = TypeParam;
+    ViewVolume<T> view = looking_ahead<T>();
+    view.pose.position = Vec3<T>(0, 0, T(-0.9e18L));
+    view.z_far = T(0.9e18L);
+    auto const rays = sample_rays(view, directional(Vec3<T>(0, T(-1), T(-1))), 4, 4);
+    ASSERT_TRUE(rays.usable);
+    SampleDepths<T> depths = no_depths(view.z_near, view.z_far);
+    add(depths, T(0.8e18L));
+    SampleBounds<T> bounds = no_bounds(sample_splits(depths, 1, SampleSplits::even));
+    add(bounds, rays, 1, 1, T(0.8e18L));
+    auto const cascades = fit_samples(rays, bounds, brick<T>(), SampleFitOptions<T>{});
+    EXPECT_TRUE(cascades.faults.has(Fault::precision_lost));
+    for (auto const& cascade : cascades) EXPECT_FALSE(cascade.map.visible);
+}
+
 TEST(EighthOfOctaveUp, RoundsUpToFourBits) {
     EXPECT_EQ(eighth_of_octave_up(1.0), 1.0);
     EXPECT_EQ(eighth_of_octave_up(1.01), 1.125);

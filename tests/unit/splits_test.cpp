@@ -89,3 +89,17 @@ TEST(Splits, LambdaIsAHalfWhereNoFirstSplitCouldTellIt) {
     EXPECT_EQ(lambda_for_first_split(10.0, 1.0, 3, 3.0), 0.5);
     EXPECT_EQ(lambda_for_first_split(1.0, 10.0, 3, std::numeric_limits<double>::infinity()), 0.5);
 }
+
+TEST(Splits, LambdaIsAHalfWhereUniformAndLogarithmicAreAlike) {
+    double const next = std::nextafter(std::nextafter(1.0, 2.0), 2.0);
+    EXPECT_EQ(lambda_for_first_split(1.0, next, 2, 1.0), 0.5);
+}
+
+TEST(Splits, PinnedOfBadNumbersAreThoseOfPracticalOnes) {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(pinned_splits(nan, 10.0, 4, 2.0).faults.has(Fault::not_finite));
+    EXPECT_TRUE(pinned_splits(1.0, nan, 4, 2.0).faults.has(Fault::not_finite));
+    EXPECT_TRUE(pinned_splits(1.0, 10.0, 4, nan).faults.has(Fault::clamped_option));
+    EXPECT_EQ(pinned_splits(1.0, 10.0, 4, 0.5).count, 4);
+    EXPECT_EQ(pinned_splits(1.0, 10.0, 1, 2.0).count, 1);
+}

@@ -82,3 +82,19 @@ TYPED_TEST(StillnessOf, WhatAMapDoesNotHoldHasNoShift) {
     EXPECT_FALSE(texel_shift(good, good, 100, Vec3<T>(std::numeric_limits<T>::quiet_NaN())).ok);
     EXPECT_EQ(shimmer_texels(TexelShift<T>{}), T(0));
 }
+
+TEST(Stillness, OfAMapOfOneTexelIsMeasuredTooAndOfNoneNot) {
+    auto const before = map_at(0.0, 0.0, gl_clip), after = map_at(25.0, 0.0, gl_clip);
+    TexelShift<double> const one = texel_shift(before, after, 1, Vec3<double>(0.0));
+    EXPECT_TRUE(one.ok);
+    EXPECT_NEAR(one.texels.x, 0.25, 1e-12);
+    EXPECT_FALSE(texel_shift(before, after, 0, Vec3<double>(0.0)).ok);
+}
+
+TEST(Stillness, IsNotMeasuredBehindEitherMap) {
+    auto const map = map_at(0.0, 0.0, gl_clip);
+    auto behind = map;
+    behind.clip_from_world[3][3] = -1.0;
+    EXPECT_FALSE(texel_shift(map, behind, 100, Vec3<double>(0.0)).ok);
+    EXPECT_FALSE(texel_shift(behind, map, 100, Vec3<double>(0.0)).ok);
+}

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <limits>
 
 using namespace shadowmath;
@@ -85,4 +87,41 @@ TEST(Sweep, OfNothingHoldsNothing) {
     EXPECT_FALSE(swept.visible);
     EXPECT_FALSE(may_meet(swept, unit_box));
     EXPECT_EQ(clipped(convex_body(unit_box), swept).edge_count, 0);
+}
+
+TEST(Sweep, OfABodyThatHasRunOutOfFacesIsTooLargeAndNeverTooSmall) {
+    ConvexBody<double> body = convex_body(Aabb<double>{Vec3<double>(-1.0), Vec3<double>(1.0)});
+    HalfSpaces<double> planes;
+    planes.visible = true;
+    for (int i = 0; i < max_body_faces; ++i) {
+        double const angle = 0.19 * i;
+        planes.at[static_cast<unsigned>(planes.count++)] = Vec4<double>(std::cos(angle), std::sin(angle), 0.0, 0.99);
+    }
+    ConvexBody<double> const part = clipped(body, planes);
+    EXPECT_EQ(part.face_count, max_body_faces);
+    EXPECT_GT(part.edge_count, 12);
+    body.face_count = max_body_faces;
+#if defined(NDEBUG)
+    EXPECT_EQ(clipped(body, Vec4<double>(1, 0, 0, 0)).edge_count, body.edge_count) << "a cut too many cuts nothing";
+#endif
+}
+
+TEST(Sweep, OfABodyOfAsManyFacesAsThereCanBeLeavesNothingOut) {
+    ConvexBody<double> body = convex_body(Aabb<double>{Vec3<double>(-1.0), Vec3<double>(1.0)});
+    for (int i = 0; body.face_count < max_body_faces; ++i) {
+        double const height = 1 - 2 * (i + 0.5) / 26, angle = 2.399963 * i, r = std::sqrt(1 - height * height);
+        Vec3<double> const outward(r * std::cos(angle), height, r * std::sin(angle));
+        body = clipped(body, Vec4<double>(-outward, 1.0));
+    }
+    int most = 0;
+    for (int i = 0; i < 400; ++i) {
+        double const height = std::cos(0.37 * i), angle = 0.13 * i, r = std::sqrt(1 - height * height);
+        Vec3<double> const travel(r * std::cos(angle), height, r * std::sin(angle));
+        HalfSpaces<double> const swept = swept_to_light(body, Vec4<double>(travel, 0.0));
+        most = std::max(most, swept.count);
+        for_each_vertex(body, [&](Vec3<double> const& vertex) {
+            for (double const way : {0.0, 5.0}) EXPECT_TRUE(laws::inside(swept, vertex - travel * way, 1e-12));
+        });
+    }
+    EXPECT_EQ(most, max_body_faces) << "some outlines and unlit faces are more than there is room for";
 }

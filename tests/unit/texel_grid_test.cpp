@@ -185,6 +185,13 @@ TEST(HeldSize, IsWhatIsNeededWhereThereIsNothingToHold) {
     EXPECT_EQ(held_size(0.3, nan_), 0.3);
 }
 
+TEST(HeldSize, IsWhatIsNeededAtTheEndsOfTheType) {
+    float const most = std::numeric_limits<float>::max(), nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(held_size(most, 1.0f), most) << "there is no eighth of an octave above";
+    EXPECT_EQ(held_size(2.0f, nan), 2.0f);
+    EXPECT_TRUE(std::isnan(held_size(nan, 2.0f)));
+}
+
 TEST(GridWindow, StandsOnWholePages) {
     LightBasis<double> const axes = light_basis(glm::dvec3(0, -1, 0));
     for (double x = -300; x < 300; x += 1.7) {

@@ -287,6 +287,51 @@ TEST(Vdsm, RefusesMapsWithoutRoomAndBadOptions) {
         view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::not_finite));
 }
 
+TEST(Vdsm, NamesAnyOptionThatIsNoNumberAndAnyThatIsOutOfRange) {
+    for (double VdsmOptions<double>::*option :
+         {&VdsmOptions<double>::reach, &VdsmOptions<double>::w_min, &VdsmOptions<double>::least_sine}) {
+        VdsmOptions<double> options;
+        options.*option = nan_;
+        EXPECT_TRUE(
+            view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).faults.has(Fault::not_finite));
+        options.*option = -1.0;
+        ShadowMap<double> const map = view_dependent_map(walker(), morning, ground, town, town, options, gl_clip);
+        EXPECT_TRUE(map.faults.has(Fault::clamped_option));
+        EXPECT_TRUE(map.visible);
+    }
+    ShadowPlane<double> const beyond{V3(0, 1, 0), 1e13};
+    EXPECT_TRUE(
+        view_dependent_map(walker(), morning, beyond, town, town, {}, gl_clip).faults.has(Fault::invalid_plane));
+    EXPECT_FALSE(receiver_valid(ShadowMap<double>{}, V3(0.0))) << "no map, no answer";
+}
+
+TEST(Vdsm, NamesCastersAndReceiversThatAreNotFiniteEachAlone) {
+    Aabb<double> const endless{V3(-300, 0, -300), V3(300, inf, 300)};
+    for (bool const casters : {true, false}) {
+        auto const map = view_dependent_map(walker(), morning, ground, casters ? endless : town,
+                                            casters ? town : endless, {}, gl_clip);
+        EXPECT_TRUE(map.faults.has(Fault::not_finite)) << casters;
+    }
+}
+
+TEST(Vdsm, SaysThatPrecisionIsLostBeyondWhatAFloatCanMultiply) {
+    ViewVolume<double> far_away = walker();
+    far_away.pose.position.x = 1e13;
+    ShadowMap<double> const map = view_dependent_map(far_away, morning, ground, town, town, {}, gl_clip);
+    EXPECT_FALSE(map.visible);
+    EXPECT_TRUE(map.faults.has(Fault::precision_lost));
+    for (int axis = 0; axis < 3; ++axis) {
+        V3 place(0, 9, 0);
+        place[axis] = 1e13;
+        Light<double> const lamp = spot(place, V3(0, -1, 0), 0.5, 20.0);
+        EXPECT_TRUE(
+            view_dependent_map(walker(), lamp, ground, town, town, {}, gl_clip).faults.has(Fault::precision_lost));
+    }
+    Light<double> const endless = spot(V3(0, 9, 0), V3(0, -1, 0), 0.5, 1e13);
+    EXPECT_TRUE(
+        view_dependent_map(walker(), endless, ground, town, town, {}, gl_clip).faults.has(Fault::precision_lost));
+}
+
 TEST(Vdsm, ServesOrthographicEyes) {
     ViewVolume<double> const view = orthographic_view(pose_looking(V3(0, 50, 0), V3(0.1, -1, -0.3), V3(0, 1, 0)), -20.0,
                                                       20.0, -20.0, 20.0, 1.0, 100.0);

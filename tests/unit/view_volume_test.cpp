@@ -128,3 +128,58 @@ TEST(Pose, IsMendedWhenItsAxesAreOrthonormalToOneInAThousand) {
     EXPECT_FALSE(laws::is_orthonormal(pose));
     EXPECT_TRUE(laws::is_orthonormal(orthonormalized(pose)));
 }
+
+TEST(ViewVolume, OfAMatrixWithoutAScaleHasNoSides) {
+    for (int axis = 0; axis < 2; ++axis) {
+        glm::dmat4 matrix(1.0);
+        matrix[axis][axis] = 0.0;
+        EXPECT_TRUE(faults_of(view_from_projection(Pose<double>{}, matrix, 0.1, 10.0)).has(Fault::bad_frustum));
+    }
+}
+
+TEST(ViewVolume, OfAMirroredMatrixHasItsSidesInOrder) {
+    glm::dmat4 mirrored(1.0);
+    mirrored[0][0] = mirrored[1][1] = -0.5;
+    ViewVolume<double> const view = view_from_projection(Pose<double>{}, mirrored, 0.1, 10.0);
+    EXPECT_EQ(view.left, -2.0);
+    EXPECT_EQ(view.right, 2.0);
+    EXPECT_EQ(view.bottom, -2.0);
+    EXPECT_EQ(view.top, 2.0);
+}
+
+TEST(ViewVolume, NamesWhicheverNumberIsNone) {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    ViewVolume<double> const good = perspective_view(Pose<double>{}, 1.0, 1.6, 0.1, 100.0);
+    EXPECT_FALSE(faults_of(good).any());
+    for (double ViewVolume<double>::*number : {&ViewVolume<double>::left, &ViewVolume<double>::right,
+                                               &ViewVolume<double>::bottom, &ViewVolume<double>::top}) {
+        ViewVolume<double> bad = good;
+        bad.*number = nan;
+        EXPECT_TRUE(faults_of(bad).has(Fault::bad_frustum));
+    }
+    for (double ViewVolume<double>::*number : {&ViewVolume<double>::z_near, &ViewVolume<double>::z_far}) {
+        ViewVolume<double> bad = good;
+        bad.*number = nan;
+        EXPECT_TRUE(faults_of(bad).has(Fault::not_finite));
+    }
+    for (glm::dvec3 Pose<double>::*axis :
+         {&Pose<double>::position, &Pose<double>::right, &Pose<double>::up, &Pose<double>::forward}) {
+        ViewVolume<double> bad = good;
+        (bad.pose.*axis).y = nan;
+        EXPECT_TRUE(faults_of(bad).has(Fault::not_finite));
+    }
+}
+
+TEST(ViewVolume, OfAnEndlessOrthographicViewHasAFiniteMatrix) {
+    ViewVolume<double> view = orthographic_view(Pose<double>{}, -1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+    view.z_far = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(all_finite(clip_from_world(view, gl_clip)));
+}
+
+TEST(Pose, WithoutAForwardOrARightAxisComesBackAsItIs) {
+    for (glm::dvec3 Pose<double>::*axis : {&Pose<double>::forward, &Pose<double>::right}) {
+        Pose<double> pose;
+        pose.*axis = glm::dvec3(0.0);
+        EXPECT_EQ(orthonormalized(pose).*axis, glm::dvec3(0.0));
+    }
+}

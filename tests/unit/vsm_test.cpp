@@ -45,3 +45,11 @@ TEST(Evsm, OfTheLargestExponentsStaysInsideFloatAndHalf) {
         EXPECT_LE(std::max(half.y, half.w), 65504.0f);
     }
 }
+
+TEST(Evsm, OfAReceiverThatIsNoNumberIsLit) {
+    EvsmExponents<double> const exponents;
+    Vec4<double> const moments = evsm_moments(0.2, exponents);
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(evsm_bound(moments, Vec2<double>(nan, -1.0), exponents, 1e-4), 1.0);
+    EXPECT_EQ(evsm_bound(Vec4<double>(nan), evsm_warp(0.5, exponents), exponents, 1e-4), 1.0);
+}

@@ -90,10 +90,34 @@ TEST(SimpleWarps, AreTheIdentityForParametersOutOfRange) {
         EXPECT_EQ(printed_simple_warp(bad, 1.0, 0.1, 1.0), glm::dmat4(1.0));
         EXPECT_EQ(printed_simple_warp(1.0, bad, 0.1, 1.0), glm::dmat4(1.0));
         EXPECT_EQ(printed_simple_warp(1.0, 1.0, bad, 1.0), glm::dmat4(1.0));
+        EXPECT_EQ(printed_simple_warp(1.0, 1.0, 0.1, bad), glm::dmat4(1.0));
+        EXPECT_EQ(corrected_simple_warp(1.0, bad, 1.0), glm::dmat4(1.0));
         EXPECT_EQ(corrected_simple_warp(bad, 0.1, 1.0), glm::dmat4(1.0));
         EXPECT_EQ(corrected_simple_warp(1.0, 0.1, bad), glm::dmat4(1.0));
     }
     EXPECT_EQ(corrected_simple_warp(1.0, 1.0, 1.0), glm::dmat4(1.0));
+    // Numbers that are good alone and too much together.
+    EXPECT_EQ(printed_simple_warp(1e-300, 1.0, 1e20, 1e30), glm::dmat4(1.0));
+    EXPECT_EQ(corrected_simple_warp(1e-300, 1e20, 1e30), glm::dmat4(1.0));
+}
+
+TEST(WarpAxes, OfAViewThatIsNoneAreThoseOfTheLightAlone) {
+    Pose<double> none;
+    none.forward = none.up = none.right = V3(0.0);
+    WarpAxes<double> const axes = warp_axes(none, overhead.direction);
+    EXPECT_EQ(axes.basis.x, light_basis(overhead.direction).x);
+    EXPECT_EQ(axes.basis.y, light_basis(overhead.direction).y);
+}
+
+TEST(SimplePerspectiveMap, NamesAnyOptionThatIsNoNumber) {
+    for (double WarpOptions<double>::*option :
+         {&WarpOptions<double>::strength, &WarpOptions<double>::focus_metres, &WarpOptions<double>::coefficient}) {
+        WarpOptions<double> options;
+        options.*option = nan_;
+        auto const map = simple_perspective_map(level_view(), overhead, town, town, options, gl_clip);
+        EXPECT_TRUE(map.faults.has(Fault::not_finite));
+        EXPECT_FALSE(map.visible);
+    }
 }
 
 TEST(OptimalCentre, IsNearPlusTheGeometricMeanForALightOverhead) {

@@ -77,4 +77,36 @@ float sm_normal_offset_metres(float texel_metres, int filter_radius, vec3 normal
     return sm_all_finite(offset) ? offset : 0.0;
 }
 
+// The same for any map, whose texels differ from place to place: the least metres along the unit `normal` with which
+// the plane through `point` does not shadow itself in this map. `to_light` is unit; `lamp_metres` the distance to a
+// spot, 0 of a sun; `depth_gain` the map's (depth_gain of the C++, once a map). At most `most_metres`; 0 where the
+// plane faces away, or the map does not hold the point.
+float sm_normal_offset_at(sm_ShadowMap map, int map_size, int filter_radius, vec3 point, vec3 normal, vec3 to_light,
+                          float lamp_metres, float depth_gain, float most_metres) {
+    sm_Projected at = sm_projected(map.clip_from_world, point, map.w_min);
+    if (!at.in_front || !sm_all_finite(normal) || !sm_all_finite(most_metres) || !(most_metres > 0.0) ||
+        !(depth_gain > 0.0))
+        return 0.0;
+    float cosine = sm_dot(normal, to_light);
+    if (!(cosine > 0.0)) return 0.0;
+    vec2 s = sm_slope(map, map_size, point, normal, 1e6);
+    // What the kernel needs of clip depth, before the division by w.
+    precise float needed = sm_kernel_reach_texels(filter_radius) * (abs(s.x) + abs(s.y)) / depth_gain;
+    precise float offset = most_metres;
+    if (!(lamp_metres > 0.0)) {
+        // needed * (w + offset * gain of w) = offset / cosine
+        mat4 m = map.clip_from_world;
+        float gain_of_w = sm_dot(vec3(m[0].w, m[1].w, m[2].w), normal);
+        precise float left = 1.0 - needed * cosine * gain_of_w;
+        precise float raised = needed * cosine * at.w;
+        if (left > 0.0) offset = sm_bounded_quotient(raised, left, most_metres);
+    } else {
+        // The way to the lamp, shortened by the share s, gains k s / (1 - s).
+        precise float raised = needed * at.w;
+        precise float whole = 1.0 + raised;
+        offset = cosine * lamp_metres * sm_bounded_quotient(raised, whole, 1.0);
+    }
+    return sm_all_finite(offset) && offset < most_metres ? offset : most_metres;
+}
+
 #endif

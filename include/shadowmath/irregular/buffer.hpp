@@ -90,34 +90,29 @@ struct IrregularBuffer {
     std::uint32_t level_first[most_levels]{};  // place in `first` of the levels from 1 on
     std::uint32_t levels_used = 0;             // bit l: level l has a node
 
-    // Tiles: sixteen pixels each, four rows of four.
-    T* quad = nullptr;                // q less the tile's, q_x, q_y: three times sixteen
-    T* range = nullptr;               // of its pixels' keys: eight bases, of which five count; eight gains likewise
-    T* tile_q = nullptr;              // near the q of its pixels: what differs from it is known to far more digits
-    std::uint32_t* mask = nullptr;    // sixteen
-    std::uint32_t* bounds = nullptr;  // four keys of each pixel, a byte each; see tile.hpp
-    std::uint32_t* beyond = nullptr;  // the fifth
-    std::uint32_t* alive = nullptr;   // bit k: light may reach pixel k, and a sample of it is not yet covered
+    // Tiles: sixteen pixels each, four rows of four; tile_scalars and tile_words of each, see below.
+    T* surface = nullptr;
+    std::uint32_t* state = nullptr;
 
-    // Nodes, sorted by list: bounds in texels of the finest level, the far end of the depths, the tile.
-    T* lo_x = nullptr;
-    T* hi_x = nullptr;
-    T* lo_y = nullptr;
-    T* hi_y = nullptr;
-    T* depth = nullptr;
+    // Nodes, sorted by list: lo x, hi x, lo y, hi y in texels of the finest level, the far end of the depths; the tile.
+    T* bounds = nullptr;
     std::uint32_t* tile = nullptr;
     std::uint32_t* first = nullptr;  // node of each list, one more at the end
+    std::uint32_t list_count = 0;
 
     // Texels of the finest level.
     T* texel_depth = nullptr;                 // far end over the nodes that touch it
+    T* block_depth = nullptr;                 // the same over 2 x 2 texels, of which this is the first
     std::uint32_t* texel_levels = nullptr;    // bit l: level l has a node here
     std::uint32_t* texel_lists = nullptr;     // place in `first`: nodes too wide for its divisions, then the divisions
     std::uint32_t* texel_division = nullptr;  // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
-    // For trace: triangles are put in order of their texels, a block at a time.
-    std::uint32_t* block_texel = nullptr;
-    std::uint32_t* block_order = nullptr;
-    std::uint32_t* block_count = nullptr;
+    // For trace: triangles are put in the order of the lists, a block at a time.
+    std::uint32_t* caster = nullptr;
+    std::uint32_t* caster_list = nullptr;
+    std::uint32_t* caster_order = nullptr;
+    std::uint32_t* caster_end = nullptr;  // of each list
+    std::uint32_t caster_room = 0;
 
     // Over all nodes.
     T least_x = T(0), most_x = T(0), least_y = T(0), most_y = T(0), most_depth = T(0), least_w = T(0), most_w = T(0);
@@ -131,7 +126,13 @@ struct IrregularBuffer {
     return ((map_size - 1) >> level_shift * level) + 1;
 }
 
-inline constexpr int caster_block = 1 << 17;
+// What is kept of a tile. Its scalars: the q of each pixel less the tile's, q_x, q_y; then the tile's q, near those of
+// its pixels, so that the differences are known to far more digits; and for each of the five keys of tile.hpp, where
+// its bytes begin and how long a step of theirs is. Its words: four keys of each pixel, a byte each, and the fifth; which
+// pixels light may reach that have a sample not yet covered, a bit each; the masks.
+inline constexpr int tile_scalars = 64, tile_words = 48;
+inline constexpr int tile_q_at = 48, key_base_at = 49, key_step_at = 54;
+inline constexpr int alive_at = 20, mask_at = 32;
 
 // Tiles begin where a line of the caches does: what may be left out before the first, in words and in scalars.
 inline constexpr std::size_t cache_line = 64;
@@ -151,11 +152,10 @@ inline constexpr std::size_t line_slack = cache_line / 4 - 1;
         side = level_size(map_size, level);
         coarser += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     }
-    // Behind each array of nodes sixteen more can be read. Every four nodes that touch a texel pay for a division.
-    std::size_t const nodes = 4 * parts + lane_count;
-    return {(4 * lane_count + 1) * tiles + 5 * nodes + 5 * parts + texels + line_slack,
-            (2 * lane_count + lane_count / 4 + 1) * tiles + nodes + 3 * parts + (2 * texels + coarser + parts + 2) +
-                4 * texels + 2 + 2 * caster_block + line_slack};
+    // Every four nodes that touch a texel pay for a division. As many triangles as pixels are put in order at once.
+    std::size_t const nodes = 4 * parts, lists = 2 * texels + coarser + parts + 2;
+    return {tile_scalars * tiles + 5 * nodes + 5 * parts + 2 * texels + line_slack,
+            tile_words * tiles + nodes + 3 * parts + 2 * lists + 3 * texels + 3 * lane_count * tiles + line_slack};
 }
 
 namespace detail {
@@ -189,13 +189,14 @@ template <class T>
         storage.size.words < least.words)
         return parts;
     std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
-    std::size_t const by_words = (storage.size.words - least.words) / 8;
+    std::size_t const by_words = (storage.size.words - least.words) / 9;
     std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
     // Nodes are counted with 32 bits, tiles with 28.
     parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 28 ? capacity : 1u << 28);
     auto const tiles = static_cast<std::size_t>(buffer.tile_count);
     auto const texels = static_cast<std::size_t>(buffer.map_size) * static_cast<std::size_t>(buffer.map_size);
-    std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
+    std::size_t const nodes = 4 * std::size_t{parts.capacity};
+    buffer.caster_room = static_cast<std::uint32_t>(lane_count * tiles);
     T* scalars = storage.scalars;
     std::uint32_t* words = storage.words;
     auto const take = [](auto*& from, std::size_t count) {
@@ -205,25 +206,21 @@ template <class T>
     };
     scalars += scalars_to_line(scalars);
     words += scalars_to_line(words);
-    buffer.quad = take(scalars, 3 * lane_count * tiles);
-    buffer.range = take(scalars, lane_count * tiles);
-    buffer.tile_q = take(scalars, tiles);
-    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth})
-        *array = take(scalars, nodes);
+    buffer.surface = take(scalars, tile_scalars * tiles);
+    buffer.bounds = take(scalars, 5 * nodes);
     buffer.texel_depth = take(scalars, texels);
+    buffer.block_depth = take(scalars, texels);
     parts.bounds = scalars;
-    buffer.mask = take(words, lane_count * tiles);
-    buffer.bounds = take(words, lane_count * tiles);
-    buffer.beyond = take(words, lane_count / 4 * tiles);
-    buffer.alive = take(words, tiles);
+    buffer.state = take(words, tile_words * tiles);
+    for (std::uint32_t** array : {&buffer.caster, &buffer.caster_list, &buffer.caster_order})
+        *array = take(words, buffer.caster_room);
     buffer.tile = take(words, nodes);
     for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division})
         *array = take(words, texels);
-    buffer.block_count = take(words, texels + 2);
-    buffer.block_texel = take(words, caster_block);
-    buffer.block_order = take(words, caster_block);
     parts.place = take(words, 3 * std::size_t{parts.capacity});
-    buffer.first = words;
+    std::size_t const lists = (static_cast<std::size_t>(storage.words + storage.size.words - words)) / 2;
+    buffer.first = take(words, lists);
+    buffer.caster_end = words;
     std::memset(buffer.texel_levels, 0, texels * sizeof(std::uint32_t));
     std::memset(buffer.texel_division, 0, texels * sizeof(std::uint32_t));
     for (std::size_t texel = 0; texel < texels; ++texel) buffer.texel_depth[texel] = std::numeric_limits<T>::lowest();

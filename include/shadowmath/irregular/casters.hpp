@@ -86,20 +86,48 @@ struct CasterKernel {
         return any;
     }
 
+    void fetch(std::uint32_t triangle) const noexcept {
+        if (casters.index != nullptr) return;
+        T const* const from = casters.position + std::size_t{3} * triangle * static_cast<std::size_t>(casters.stride);
+        __builtin_prefetch(from);
+        __builtin_prefetch(from + 8);
+    }
+
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
-        batch.sound = 0;
+        auto const stride = static_cast<std::size_t>(casters.stride);
+        auto const keep = [&batch](int i, auto const& at) {
+            Lanes xyz[3];
+            Lanes::points(at, xyz);
+            for (int axis = 0; axis < 3; ++axis) xyz[axis].store(batch.vertex[i][axis]);
+        };
+        std::uint32_t sound = 0;
+        T const* at[3][lane_count];
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
-            std::size_t const triangle = !ok ? 0 : order != nullptr ? order[begin + k] : begin + k;
-            for (std::uint32_t i = 0; i < 3; ++i) {
-                std::size_t vertex = 3 * triangle + i;
-                if (casters.index != nullptr) vertex = casters.index[vertex];
-                ok = ok && vertex < casters.vertex_count;
-                T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis];
+            std::size_t const first = std::size_t{3} * (!ok ? 0u : order != nullptr ? order[begin + k] : begin + k);
+            if (casters.index == nullptr) {
+                ok = ok && first + 2 < casters.vertex_count;
+                at[0][k] = casters.position + (ok ? first * stride : 0);
+            } else {
+                for (std::uint32_t i = 0; i < 3; ++i) {
+                    std::size_t const vertex = casters.index[first + i];
+                    bool const held = vertex < casters.vertex_count;
+                    ok = ok && held;
+                    at[i][k] = casters.position + (held ? vertex * stride : 0);
+                }
             }
-            batch.sound |= (ok ? 1u : 0u) << k;
+            sound |= (ok ? 1u : 0u) << k;
+        }
+        batch.sound = sound;
+        for (int i = 0; i < 3; ++i) {
+            if (casters.index != nullptr)
+                keep(i, [&](int k) { return at[i][k]; });
+            else
+                // Fewer than three vertices in all: the first, three times.
+                keep(i, [&at, step = casters.vertex_count < 3 ? 0 : static_cast<std::size_t>(i) * stride](int k) {
+                    return at[0][k] + step;
+                });
         }
         find(batch);
     }

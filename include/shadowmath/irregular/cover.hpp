@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Which samples of which pixels a triangle covers. Pairs of a triangle and a tile are queued, so that what they need of
-// memory is asked for before it is used. First the pixels whose bounds are out of the triangle's reach are left out;
-// the others are held against the four planes of its shadow volume, four pixels in four lanes each; samples are looked
-// at last, in pixels that a plane crosses.
+// Which samples of a tile the triangles of a chunk cover. First the pixels whose bounds are out of a triangle's reach
+// are left out; the others are held against the four planes of its shadow volume; samples are looked at last, in pixels
+// that a plane crosses. Tiles are queued, so that what they need of memory is asked for before it is used; and each step
+// is done for all triangles of a tile before the next, so that none waits for what is found of another.
 #pragma once
 
 #include <shadowmath/config.hpp>
 #include <shadowmath/irregular/buffer.hpp>
-#include <shadowmath/irregular/casters.hpp>
+#include <shadowmath/irregular/chunk.hpp>
 #include <shadowmath/irregular/lanes.hpp>
 #include <shadowmath/irregular/mask.hpp>
 #include <shadowmath/irregular/microquad.hpp>
@@ -29,227 +29,196 @@ inline void fetch_soon(void const* line) noexcept {
 #endif
 }
 
-// Tiles that the triangles of a batch may touch, triangle after triangle.
-struct PairQueue {
-    static constexpr std::uint32_t room = 512;
-    std::uint32_t tile[room + lane_count];
-    std::uint32_t count = 0;
-    std::uint32_t begin[lane_count + 1];  // of each triangle
-    int triangle[lane_count];
-    int triangles = 0;
-
-    void open(int k) noexcept {
-        triangle[triangles] = k;
-        begin[triangles++] = count;
-    }
-    // The last triangle touched nothing.
-    void drop_empty() noexcept { triangles -= begin[triangles - 1] == count ? 1 : 0; }
-    void clear() noexcept {
-        count = 0;
-        triangles = 0;
-    }
-};
-
 template <class Lanes, class T = typename Lanes::Scalar>
 struct CoverKernel {
     IrregularBuffer<T>& buffer;
     PixelFrame<Wider<T>> const& frame;
 
     using Real = Wider<T>;
-    using Batch = CasterBatch<Lanes>;
+    using Wide = typename Lanes::Wide;
 
-    static constexpr std::uint32_t ahead = 8;  // tiles
+    // Tiles that wait, and the slots of the triangles that may darken each.
+    struct Queue {
+        static constexpr std::uint32_t most_tiles = 16, most_slots = 512;
+        std::uint32_t tile[most_tiles];
+        std::uint32_t begin[most_tiles + 1];
+        std::uint32_t slot[most_slots + chunk_room + lane_count];
+        std::uint32_t tiles = 0;
+        std::uint32_t slots = 0;
 
-    // Pixels that remain, as bits.
-    struct Remaining {
-        std::uint32_t tile[PairQueue::room + lane_count];
-        std::uint32_t pixels[PairQueue::room + lane_count];
+        [[nodiscard]] std::uint32_t* next() noexcept { return slot + slots; }
+        [[nodiscard]] bool full() const noexcept { return tiles == most_tiles || slots >= most_slots; }
     };
 
-    struct Planes {
-        Real x[4], y[4], a[4], b[4];
-        T narrow[3][4];              // x, y and b
-        Lanes across, upward, by_q;  // the same, four lanes each
+    // Pairs of a tile and a triangle that remain.
+    struct Pairs {
+        static constexpr std::uint32_t room = Queue::most_slots + chunk_room;
+        std::uint32_t tile[room];
+        std::uint32_t slot[room];
+        std::uint32_t pixels[room];
+        T here[room + 3][4];  // the four planes' values at the corner of the tile
+        std::uint32_t count = 0;
     };
 
-    [[nodiscard]] static Planes planes_of(Batch const& batch, int k) noexcept {
-        Planes planes;
-        for (int i = 0; i < 4; ++i) {
-            planes.narrow[0][i] = static_cast<T>(planes.x[i] = batch.plane[0][i][k]);
-            planes.narrow[1][i] = static_cast<T>(planes.y[i] = batch.plane[1][i][k]);
-            planes.a[i] = batch.plane[2][i][k];
-            planes.narrow[2][i] = static_cast<T>(planes.b[i] = batch.plane[3][i][k]);
+    struct Quads {
+        Lanes q, q_x, q_y, column, row;
+    };
+
+    // A plane as a line across each pixel: inside where c + x u + y v >= 0.
+    struct Lines {
+        Lanes c, x, y;
+    };
+
+    // Takes the next `count` slots of the queue for a tile.
+    void enqueue(std::uint32_t tile, std::uint32_t count, Queue& queue) const noexcept {
+        queue.tile[queue.tiles] = tile;
+        queue.begin[queue.tiles++] = queue.slots;
+        queue.slots += count;
+        T const* const surface = surface_of(tile);
+        std::uint32_t const* const state = state_of(tile);
+        for (std::size_t i = 0; i < tile_scalars; i += cache_line / sizeof(T)) fetch_soon(surface + i);
+        for (std::size_t i = 0; i < tile_words; i += cache_line / sizeof(std::uint32_t)) fetch_soon(state + i);
+    }
+
+    void cover(RaisedTriangle<T> const* raised, Queue& queue) const noexcept {
+        Pairs pairs;
+        queue.begin[queue.tiles] = queue.slots;
+        for (std::uint32_t i = 0; i < queue.tiles; ++i) {
+            std::uint32_t const first = pairs.count;
+            leave_out(queue.tile[i], raised, queue.slot + queue.begin[i], queue.begin[i + 1] - queue.begin[i], pairs);
+            place(queue.tile[i], raised, first, pairs);
         }
-        planes.across = Lanes::quadrupled(planes.narrow[0]);
-        planes.upward = Lanes::quadrupled(planes.narrow[1]);
-        planes.by_q = Lanes::quadrupled(planes.narrow[2]);
-        return planes;
-    }
-
-    void cover(Batch const& batch, PairQueue& queue) const noexcept {
-        Remaining remaining;
-        std::uint32_t kept = 0;
-        queue.begin[queue.triangles] = queue.count;
-        for (std::uint32_t n = 0; n < ahead && n < queue.count; ++n) fetch_bounds(queue.tile[n]);
-        for (int t = 0; t < queue.triangles; ++t) {
-            int const k = queue.triangle[t];
-            T const keys[8] = {batch.bounds[1][k], -batch.bounds[0][k], batch.bounds[3][k], -batch.bounds[2][k],
-                               -batch.depth[k]};
-            std::uint32_t const first = kept;
-            for (std::uint32_t n = queue.begin[t]; n < queue.begin[t + 1]; ++n) {
-                if (n + ahead < queue.count) fetch_bounds(queue.tile[n + ahead]);
-                std::uint32_t const tile = queue.tile[n];
-                remaining.tile[kept] = tile;
-                remaining.pixels[kept] = pixels_in_reach(tile, keys);
-                kept += remaining.pixels[kept] != 0 ? 1u : 0u;
-            }
-            queue.begin[t] = first;
+        queue.tiles = queue.slots = 0;
+        std::uint32_t crossing[Pairs::room];
+        std::uint32_t const crossings = cross(raised, pairs, crossing);
+        for (std::uint32_t i = 0; i < crossings; ++i) {
+            std::uint32_t const n = crossing[i], tile = pairs.tile[n];
+            std::uint32_t* const state = state_of(tile);
+            state[alive_at] &= ~darken(quads_of(tile), raised[pairs.slot[n]], pairs.here[n], pairs.pixels[n], state + mask_at);
         }
-        queue.begin[queue.triangles] = kept;
-        for (std::uint32_t n = 0; n < ahead / 2 && n < kept; ++n) fetch_quads(remaining.tile[n]);
-        for (int t = 0; t < queue.triangles; ++t) {
-            std::uint32_t n = queue.begin[t];
-            std::uint32_t const end = queue.begin[t + 1];
-            if (n == end) continue;
-            Planes const planes = planes_of(batch, queue.triangle[t]);
-            for (; n < end; ++n) {
-                if (n + ahead / 2 < kept) fetch_quads(remaining.tile[n + ahead / 2]);
-                test(remaining.tile[n], remaining.pixels[n], planes);
-            }
+    }
+
+    [[nodiscard]] Quads quads_of(std::uint32_t tile) const noexcept {
+        T const* const surface = surface_of(tile);
+        return {Lanes::load(surface), Lanes::load(surface + lane_count), Lanes::load(surface + 2 * lane_count),
+                Lanes::load(tile_columns<T>), Lanes::load(tile_rows<T>)};
+    }
+
+    [[nodiscard]] T* surface_of(std::uint32_t tile) const noexcept {
+        return buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
+    }
+    [[nodiscard]] std::uint32_t* state_of(std::uint32_t tile) const noexcept {
+        return buffer.state + tile_words * static_cast<std::size_t>(tile);
+    }
+
+    // Keeps the triangles that reach the bounds of a pixel.
+    void leave_out(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t const* slots, std::uint32_t count,
+                   Pairs& pairs) const noexcept {
+        std::uint32_t const* const state = state_of(tile);
+        T const* const base = surface_of(tile) + key_base_at;
+        T const* const step = surface_of(tile) + key_step_at;
+        auto const* const bytes = reinterpret_cast<unsigned char const*>(state);
+        auto const bound = [=](int i) {
+            return fused(Lanes::load_bytes(bytes + i * lane_count), Lanes::all(step[i]), Lanes::all(base[i]));
+        };
+        Lanes const bounds[5] = {bound(0), bound(1), bound(2), bound(3), bound(4)};
+        std::uint32_t const alive = state[alive_at];
+        std::uint32_t kept = pairs.count;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            T const(&keys)[5] = raised[slots[n]].keys;
+            std::uint32_t pixels = alive;
+            for (int i = 0; i < 5; ++i) pixels &= at_least(Lanes::all(keys[i]), bounds[i]);
+            pairs.tile[kept] = tile;
+            pairs.slot[kept] = slots[n];
+            pairs.pixels[kept] = pixels;
+            kept += pixels != 0 ? 1u : 0u;
         }
-        queue.clear();
+        pairs.count = kept;
     }
 
-    void fetch_bounds(std::uint32_t tile) const noexcept {
-        auto const index = static_cast<std::size_t>(tile);
-        fetch_soon(buffer.range + index * lane_count);
-        fetch_soon(buffer.bounds + index * lane_count);
-        fetch_soon(buffer.beyond + index * (lane_count / 4));
-        fetch_soon(buffer.alive + index);
-    }
-    void fetch_quads(std::uint32_t tile) const noexcept {
-        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        for (int i = 0; i < 3; ++i) fetch_soon(quads + i * lane_count);
-        fetch_soon(buffer.mask + lane_count * static_cast<std::size_t>(tile));
-    }
-
-    [[nodiscard]] std::uint32_t pixels_in_reach(std::uint32_t tile, T const (&keys)[8]) const noexcept {
-        auto const index = static_cast<std::size_t>(tile);
-        T const* const base = buffer.range + index * lane_count;
-        auto const* const bounds = reinterpret_cast<unsigned char const*>(buffer.bounds + index * lane_count);
-        auto const* const beyond = reinterpret_cast<unsigned char const*>(buffer.beyond + index * (lane_count / 4));
-        return buffer.alive[tile] & Lanes::reached(keys, base, base + lane_count / 2, bounds, beyond);
-    }
-
-    static constexpr std::uint32_t every_lane[lane_count] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-    void test(std::uint32_t tile, std::uint32_t pixels, Planes const& planes) const noexcept {
+    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is no
+    // more than a tile's worth.
+    void place(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t first, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        Real const x =
-            Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2);
-        Real const y =
-            Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2);
-        auto const tile_q = Real(buffer.tile_q[tile]);
-        // Here large terms cancel; what is left is no more than a tile's worth.
-        T here[4];
-        for (int i = 0; i < 4; ++i)
-            here[i] = static_cast<T>(planes.x[i] * x + planes.y[i] * y + (planes.a[i] + planes.b[i] * tile_q));
-        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        std::uint32_t pixel[lane_count]{};
-        std::uint32_t const count = Lanes::compress(pixels, every_lane, pixel);
-        std::uint32_t const done =
-            count <= 4 ? few(tile, quads, pixel, count, here, planes) : many(tile, quads, pixels, here, planes);
-        if (done != 0) buffer.alive[tile] &= ~done;
+        auto const all = [](Real value) { return Wide::all(value); };
+        Wide const x = all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) -
+                           Real(frame.width) / Real(2));
+        Wide const y = all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) -
+                           Real(frame.height) / Real(2));
+        Wide const q = all(Real(surface_of(tile)[tile_q_at]));
+        for (std::uint32_t n = first; n < pairs.count; n += 4) {
+            // Past the last, the tile's first once more.
+            RaisedTriangle<T> const* four[4];
+            for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : first];
+            auto const rows = [&four](Real const (RaisedTriangle<T>::*plane)[4]) {
+                Real const* const row[4] = {four[0]->*plane, four[1]->*plane, four[2]->*plane, four[3]->*plane};
+                return Wide::rows(row);
+            };
+            using Raised = RaisedTriangle<T>;
+            Lanes::narrow(fused(rows(&Raised::x), x, fused(rows(&Raised::y), y, fused(rows(&Raised::b), q, rows(&Raised::a)))))
+                .store(pairs.here[n]);
+        }
     }
 
-    // Four pixels: lane 4 i + j is plane i and pixel j.
-    [[nodiscard]] std::uint32_t few(std::uint32_t tile, T const* quads, std::uint32_t const* pixel, std::uint32_t count,
-                                    T const (&here)[4], Planes const& planes) const noexcept {
+    [[nodiscard]] static Lines lines_of(Quads const& quads, RaisedTriangle<T> const& planes, int i,
+                                        T const (&here)[4]) noexcept {
+        Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
+                    by_q = Lanes::all(planes.by_q[i]);
+        return {fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i])))),
+                fused(by_q, quads.q_x, across), fused(by_q, quads.q_y, upward)};
+    }
+
+    // Pixels of which a sample may be inside, in the order of half_plane_mask: rounding is monotone.
+    [[nodiscard]] static std::uint32_t touched(Lines const& lines) noexcept {
         Lanes const zero = Lanes::all(T(0));
-        Lanes const q_x = Lanes::picked(quads + lane_count, pixel), q_y = Lanes::picked(quads + 2 * lane_count, pixel);
-        Lanes const column = Lanes::picked(tile_columns<T>, pixel), row = Lanes::picked(tile_rows<T>, pixel);
-        Lanes const c = fused(planes.by_q, Lanes::picked(quads, pixel),
-                              fused(planes.upward, row, fused(planes.across, column, Lanes::quadrupled(here))));
-        Lanes const gain_x = fused(planes.by_q, q_x, planes.across);
-        Lanes const gain_y = fused(planes.by_q, q_y, planes.upward);
-        std::uint32_t const touched = ((1u << count) - 1u) & in_all_planes(highest(c, gain_x, gain_y));
-        if (touched == 0) return 0;
-        std::uint32_t const full = in_all_planes(at_least((c + least(gain_x, zero)) + least(gain_y, zero), zero));
-        T lines[3][lane_count];
-        c.store(lines[0]);
-        gain_x.store(lines[1]);
-        gain_y.store(lines[2]);
+        return at_least((lines.c + most(lines.x, zero)) + most(lines.y, zero), zero);
+    }
+
+    // Leaves the pixels of which a sample may be within all four planes, and gives the pairs that have some. The
+    // triangle's own plane comes first: half of what it does not shadow lies before it.
+    [[nodiscard]] std::uint32_t cross(RaisedTriangle<T> const* raised, Pairs& pairs,
+                                      std::uint32_t* crossing) const noexcept {
+        std::uint32_t behind = 0;
+        for (std::uint32_t n = 0; n < pairs.count; ++n) {
+            std::uint32_t const pixels =
+                pairs.pixels[n] &
+                touched(lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], 0, pairs.here[n]));
+            pairs.pixels[n] = pixels;
+            crossing[behind] = n;
+            behind += pixels != 0 ? 1u : 0u;
+        }
+        std::uint32_t kept = 0;
+        for (std::uint32_t m = 0; m < behind; ++m) {
+            std::uint32_t const n = crossing[m];
+            Quads const quads = quads_of(pairs.tile[n]);
+            std::uint32_t pixels = pairs.pixels[n];
+            for (int i = 1; i < 4; ++i) pixels &= touched(lines_of(quads, raised[pairs.slot[n]], i, pairs.here[n]));
+            pairs.pixels[n] = pixels;
+            crossing[kept] = n;
+            kept += pixels != 0 ? 1u : 0u;
+        }
+        return kept;
+    }
+
+    // Gives the pixels that have no sample left.
+    [[nodiscard]] static std::uint32_t darken(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4],
+                                              std::uint32_t pixels, std::uint32_t* masks) noexcept {
+        T stored[4][3][lane_count];
+        for (int i = 0; i < 4; ++i) {
+            Lines const lines = lines_of(quads, planes, i, here);
+            lines.c.store(stored[i][0]);
+            lines.x.store(stored[i][1]);
+            lines.y.store(stored[i][2]);
+        }
         std::uint32_t done = 0;
-        for (std::uint32_t bits = touched; bits != 0; bits &= bits - 1) {
-            int const place = lowest_bit(bits);
-            std::uint32_t dark = every_sample;
-            if ((full >> place & 1u) == 0)
-                for (int i = place; i < lane_count; i += 4)
-                    dark &= half_plane_mask<Lanes>(PixelLine<T>{lines[0][i], lines[1][i], lines[2][i]});
-            done |= darken(tile, pixel[place], dark);
-        }
-        return done;
-    }
-
-    // A lane for each pixel.
-    [[nodiscard]] std::uint32_t many(std::uint32_t tile, T const* quads, std::uint32_t pixels, T const (&here)[4],
-                                     Planes const& planes) const noexcept {
-        Lanes const zero = Lanes::all(T(0));
-        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count),
-                    q_y = Lanes::load(quads + 2 * lane_count);
-        Lanes const column = Lanes::load(tile_columns<T>), row = Lanes::load(tile_rows<T>);
-        Lanes c[4], gain_x[4], gain_y[4];
-        std::uint32_t touched = pixels;
-        for (int i = 0; i < 4; ++i) {
-            Lanes const across = Lanes::all(planes.narrow[0][i]), upward = Lanes::all(planes.narrow[1][i]),
-                        by_q = Lanes::all(planes.narrow[2][i]);
-            c[i] = fused(by_q, q, fused(upward, row, fused(across, column, Lanes::all(here[i]))));
-            gain_x[i] = fused(by_q, q_x, across);
-            gain_y[i] = fused(by_q, q_y, upward);
-            touched &= highest(c[i], gain_x[i], gain_y[i]);
-        }
-        if (touched == 0) return 0;
-        std::uint32_t full = touched;
-        T lines[4][3][lane_count];
-        for (int i = 0; i < 4; ++i) {
-            full &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
-            c[i].store(lines[i][0]);
-            gain_x[i].store(lines[i][1]);
-            gain_y[i].store(lines[i][2]);
-        }
-        std::uint32_t done = full;
-        for (std::uint32_t bits = full; bits != 0; bits &= bits - 1) mask_of(tile, lowest_bit(bits)) = every_sample;
-        for (std::uint32_t bits = touched & ~full; bits != 0; bits &= bits - 1) {
+        for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
             int const k = lowest_bit(bits);
-            std::uint32_t dark = every_sample;
-            for (auto const& line : lines)
-                dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][k], line[1][k], line[2][k]});
-            done |= darken(tile, static_cast<std::uint32_t>(k), dark);
+            PixelLine<T> lines_here[4];
+            for (int i = 0; i < 4; ++i) lines_here[i] = {stored[i][0][k], stored[i][1][k], stored[i][2][k]};
+            std::uint32_t const dark = masks[k] |= half_planes_mask<Lanes>(lines_here);
+            done |= (dark == every_sample ? 1u : 0u) << k;
         }
         return done;
-    }
-
-    // Where a half plane may hold a sample, in the order of half_plane_mask: rounding is monotone.
-    [[nodiscard]] static std::uint32_t highest(Lanes const& c, Lanes const& gain_x, Lanes const& gain_y) noexcept {
-        Lanes const zero = Lanes::all(T(0));
-        return at_least((c + most(gain_x, zero)) + most(gain_y, zero), zero);
-    }
-
-    [[nodiscard]] std::uint32_t& mask_of(std::uint32_t tile, int pixel) const noexcept {
-        return buffer.mask[static_cast<std::size_t>(tile) * lane_count + static_cast<std::size_t>(pixel)];
-    }
-
-    // The pixel's bit where no sample is left.
-    [[nodiscard]] std::uint32_t darken(std::uint32_t tile, std::uint32_t pixel, std::uint32_t dark) const noexcept {
-        std::uint32_t& mask = mask_of(tile, static_cast<int>(pixel));
-        mask |= dark;
-        return (mask == every_sample ? 1u : 0u) << pixel;
-    }
-
-    // Bit k where bits k, 4 + k, 8 + k and 12 + k are set.
-    [[nodiscard]] static std::uint32_t in_all_planes(std::uint32_t bits) noexcept {
-        bits &= bits >> 8;
-        return bits & bits >> 4 & 0xfu;
     }
 };
 

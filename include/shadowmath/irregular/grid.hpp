@@ -168,14 +168,14 @@ template <class T, class Lanes = BestLanes<T>>
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
         kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side,
                    rect.y + tile / buffer.tiles_across * tile_side, seen);
-        std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
-        for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
-        buffer.alive[tile] = seen.alive;
+        std::uint32_t* const state = buffer.state + tile_words * static_cast<std::size_t>(tile);
+        for (unsigned k = 0; k < lane_count; ++k) state[mask_at + k] = 0u - (seen.away >> k & 1u);
+        state[alive_at] = seen.alive;
         if (seen.alive == 0) continue;
         ++buffer.counts.tiles;
         least_w = least(least_w, chosen(seen.alive, seen.lo_w, huge));
         most_w = most(most_w, chosen(seen.alive, seen.hi_w, low));
-        kernel.insert(parts, tile, seen, seen.alive, tile_side);
+        kernel.insert(parts, tile, seen, seen.alive, tile_side, seen.bounds);
     }
     buffer.least_w = smallest(least_w);
     buffer.most_w = largest(most_w);

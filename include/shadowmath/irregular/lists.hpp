@@ -95,6 +95,10 @@ inline void for_each_list(IrregularBuffer<T> const& buffer, std::uint32_t const*
             auto const k = static_cast<int>(buffer.texel_division[texel]);
             PlaceRange const in = divisions_of(places, x, y, k);
             std::uint32_t const first = buffer.texel_lists[texel];
+            if (k == 0) {
+                list(first + 1);
+                continue;
+            }
             // More than four divisions: listed once, for all triangles of the texel.
             if (in.x1 - in.x0 > 1 || in.y1 - in.y0 > 1)
                 list(first);
@@ -112,7 +116,7 @@ template <class T>
     for (std::uint32_t texel = 0; texel < texels; ++texel) {
         std::uint32_t const nodes = buffer.texel_division[texel];
         std::uint32_t k = 0;
-        while (k < most_divisions && (std::uint32_t(16) << 2 * k) <= nodes) ++k;
+        while (k < most_divisions && (std::uint32_t(64) << 2 * k) <= nodes) ++k;
         buffer.texel_division[texel] = k;
         buffer.texel_lists[texel] = lists;
         lists += 1 + (1u << 2 * k);
@@ -125,10 +129,23 @@ template <class T>
     return lists;
 }
 
+template <class T>
+inline void find_block_depths(IrregularBuffer<T>& buffer) noexcept {
+    int const size = buffer.map_size;
+    auto const deeper = [](T a, T b) { return a > b ? a : b; };
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            T const* const row = buffer.texel_depth + y * size;
+            T const* const next = y + 1 < size ? row + size : row;
+            int const right = x + 1 < size ? x + 1 : x;
+            buffer.block_depth[y * size + x] = deeper(deeper(row[x], row[right]), deeper(next[x], next[right]));
+        }
+}
+
 // False where the nodes are more than four for each part that there is room for.
 template <class T>
 [[nodiscard]] inline bool sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts) noexcept {
-    std::uint32_t const lists = divide_texels(buffer);
+    std::uint32_t const lists = buffer.list_count = divide_texels(buffer);
     std::memset(buffer.first, 0, (lists + 2) * sizeof(std::uint32_t));
     std::uint32_t* const end = buffer.first + 1;
     ListCounts& counts = buffer.counts;
@@ -141,16 +158,13 @@ template <class T>
         end[list] = counts.nodes += length;
     }
     if (counts.nodes > 4 * parts.capacity) return false;
+    find_block_depths(buffer);
     for (std::uint32_t i = 0; i < counts.parts; ++i) {
         T const* const bounds = parts.bounds + 5 * i;
         std::uint32_t const tile = parts.place[3 * i] & 0x0fffffffu;
         for_each_list(buffer, parts.place + 3 * i, [&](std::uint32_t list) {
             std::uint32_t const node = end[list]++;
-            buffer.lo_x[node] = bounds[0];
-            buffer.hi_x[node] = bounds[1];
-            buffer.lo_y[node] = bounds[2];
-            buffer.hi_y[node] = bounds[3];
-            buffer.depth[node] = bounds[4];
+            std::memcpy(buffer.bounds + 5 * std::size_t{node}, bounds, 5 * sizeof(T));
             buffer.tile[node] = tile;
         });
     }

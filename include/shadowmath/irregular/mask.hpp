@@ -68,6 +68,20 @@ template <class Lanes, class T = typename Lanes::Scalar>
     return half(0) | half(lane_count) << lane_count;
 }
 
+// The samples that all four hold.
+template <class Lanes, class T = typename Lanes::Scalar>
+[[nodiscard]] inline std::uint32_t half_planes_mask(PixelLine<T> const (&lines)[4]) noexcept {
+    Lanes const zero = Lanes::all(T(0));
+    std::uint32_t low = (1u << lane_count) - 1u, high = low;
+    for (PixelLine<T> const& line : lines) {
+        Lanes const c = Lanes::all(line.c), x = Lanes::all(line.x), y = Lanes::all(line.y);
+        PixelSamples<T> const& at = pixel_samples<T>;
+        low &= at_least(fused(y, Lanes::load(at.v), fused(x, Lanes::load(at.u), c)), zero);
+        high &= at_least(fused(y, Lanes::load(at.v + lane_count), fused(x, Lanes::load(at.u + lane_count), c)), zero);
+    }
+    return low | high << lane_count;
+}
+
 inline constexpr int table_steps = 32;  // of angle, and of radius
 
 // Half a step of radius, and half a step of angle where a radius is longest: sqrt(1/2) (1 / 64 + pi / 32).

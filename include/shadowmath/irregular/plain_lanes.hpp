@@ -62,6 +62,7 @@ struct PlainLanes {
     [[nodiscard]] static PlainLanes load(From const* from) noexcept {
         return each([from](int k) { return static_cast<T>(from[k]); });
     }
+    [[nodiscard]] static PlainLanes narrow(Wide const& wide) noexcept { return load(wide.lane); }
     void store(T* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
     }
@@ -136,31 +137,21 @@ struct PlainLanes {
         for (int axis = 0; axis < 3; ++axis)
             components[axis] = each([&row, axis](int k) { return row[k / 4][3 * (k % 4) + axis]; });
     }
-    // Lane k: from[four[k % 4]], of sixteen numbers.
-    [[nodiscard]] static PlainLanes picked(T const* from, std::uint32_t const* four) noexcept {
-        return each([from, four](int k) { return from[four[k % 4]]; });
-    }
-    // Lane k: four[k / 4].
-    [[nodiscard]] static PlainLanes quadrupled(T const* four) noexcept {
-        return each([four](int k) { return four[k / 4]; });
+    // Lane k: the three numbers at at(k).
+    template <class At>
+    static void points(At const& at, PlainLanes (&xyz)[3]) noexcept {
+        for (int axis = 0; axis < 3; ++axis) xyz[axis] = each([&at, axis](int k) { return at(k)[axis]; });
     }
     // From 0 to 255, what is beyond them at the nearer end, without the fraction.
     void store_bytes(unsigned char* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = detail::byte_of(lane[k]);
     }
-    // Bit k: (keys[i] - base[i]) * gain[i] is no less than byte 16 i + k of `bytes` for i from 0 to 3, and than byte k
-    // of `more` for 4; none where one is negative. Eight keys, bases and gains can be read.
-    [[nodiscard]] static std::uint32_t reached(T const* keys, T const* base, T const* gain, unsigned char const* bytes,
-                                               unsigned char const* more) noexcept {
-        std::uint32_t bits = (1u << lane_count) - 1u;
-        for (int i = 0; i < 5; ++i) {
-            T const value = (keys[i] - base[i]) * gain[i];
-            if (value < T(0)) return 0;
-            unsigned const bound = detail::byte_of(value);
-            unsigned char const* const from = i < 4 ? bytes + i * lane_count : more;
-            for (int k = 0; k < lane_count; ++k) bits &= ~((from[k] > bound ? 1u : 0u) << k);
-        }
-        return bits;
+    [[nodiscard]] static PlainLanes load_bytes(unsigned char const* from) noexcept {
+        return each([from](int k) { return static_cast<T>(from[k]); });
+    }
+    // Whole numbers from 0 to 2^31 - 1, without the fraction.
+    void store_words(std::uint32_t* to) const noexcept {
+        for (int k = 0; k < lane_count; ++k) to[k] = static_cast<std::uint32_t>(static_cast<std::int32_t>(lane[k]));
     }
     // Lanes of a where the bit is set, else those of b.
     friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {

@@ -5,7 +5,7 @@
 //
 // The bounds of a pixel are five keys, (lo x, -hi x, lo y, -hi y, -far depth). A caster with the keys (hi x, -lo x,
 // hi y, -lo y, -near depth) can take light from it only if none of its keys is less. The pixels' keys are kept in a
-// byte each, from 0 to 255 over the tile, rounded by the same monotone formula as the caster's: none is missed.
+// byte each, in steps of a 255th of the tile's range, a step less than they are: more than rounding can add.
 #pragma once
 
 #include <shadowmath/config.hpp>
@@ -37,6 +37,7 @@ struct TileKernel {
         std::uint32_t alive = 0;
         std::uint32_t away = 0;
         Lanes lo_x, hi_x, lo_y, hi_y, depth, lo_w, hi_w;
+        T bounds[5];  // of all that are alive: lo x, hi x, lo y, hi y, the far end of the depths
     };
 
     struct Surface {
@@ -56,8 +57,12 @@ struct TileKernel {
             at[j] = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(column);
         if (columns >= tile_side && normal_stride == 3 && (!placed || position_stride == 3)) {
+            // Written out: as a loop it is made a vector of addresses.
             auto const from = [&at](T const* array, std::size_t stride, T const*(&row_of)[tile_side]) {
-                for (int j = 0; j < tile_side; ++j) row_of[j] = array + at[j] * stride;
+                row_of[0] = array + at[0] * stride;
+                row_of[1] = array + at[1] * stride;
+                row_of[2] = array + at[2] * stride;
+                row_of[3] = array + at[3] * stride;
             };
             T const* row_of[tile_side];
             from(receivers.normal, 3, row_of);
@@ -195,9 +200,9 @@ struct TileKernel {
         seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
         keep_bounds(tile, seen);
-        T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+        T* const quads = buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
         // The division once more, without its rounding.
-        T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
+        T const tile_q = quads[tile_q_at] = middle_of(seen.alive, q);
         T rest[lane_count];
         (flat ? middle : chosen(seen.alive, depth, one)).store(rest);
         for (T& r : rest) r = static_cast<T>((flat ? Wider<T>(r) : Wider<T>(1) / Wider<T>(r)) - Wider<T>(tile_q));
@@ -207,23 +212,23 @@ struct TileKernel {
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
 
-    void keep_bounds(int tile, Seen const& seen) const noexcept {
+    void keep_bounds(int tile, Seen& seen) const noexcept {
         Lanes const zero = Lanes::all(T(0)), huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const keys[5] = {seen.lo_x, zero - seen.hi_x, seen.lo_y, zero - seen.hi_y, zero - seen.depth};
-        auto const index = static_cast<std::size_t>(tile);
-        T* const base = buffer.range + index * lane_count;
-        T* const gain = base + lane_count / 2;
-        auto* const bounds = reinterpret_cast<unsigned char*>(buffer.bounds + index * lane_count);
-        auto* const beyond = reinterpret_cast<unsigned char*>(buffer.beyond + index * lane_count / 4);
-        for (int i = 0; i < lane_count; ++i) base[i] = T(0);
+        T* const base = buffer.surface + tile_scalars * static_cast<std::size_t>(tile) + key_base_at;
+        T* const step = base + (key_step_at - key_base_at);
+        auto* const bytes =
+            reinterpret_cast<unsigned char*>(buffer.state + tile_words * static_cast<std::size_t>(tile));
         for (int i = 0; i < 5; ++i) {
             base[i] = smallest(chosen(seen.alive, keys[i], huge));
             T const span = largest(chosen(seen.alive, keys[i], zero - huge)) - base[i];
-            // No range to speak of: all bytes are 0, and no caster's is less.
-            bool const ranged = span > T(1e-30) && span < T(1e30);
-            if (ranged) gain[i] = T(255) / span;
-            Lanes const places = (keys[i] - Lanes::all(base[i])) * Lanes::all(gain[i]);
-            chosen(ranged ? seen.alive : 0u, places, zero).store_bytes(i < 4 ? bounds + i * lane_count : beyond);
+            seen.bounds[i] = i == 0 || i == 2 ? base[i] : -base[i];
+            // No range to speak of: all are as the least of them.
+            bool const ranged = span > std::abs(base[i]) * (T(1) / T(1 << 14)) && span > T(1e-30) && span < T(1e30);
+            step[i] = ranged ? span / T(255) : T(0);
+            Lanes const gain = Lanes::all(ranged ? T(255) / span : T(0));
+            Lanes const steps = (keys[i] - Lanes::all(base[i])) * gain - Lanes::all(T(1));
+            chosen(ranged ? seen.alive : 0u, steps, zero).store_bytes(bytes + i * lane_count);
         }
     }
 
@@ -236,10 +241,16 @@ struct TileKernel {
         T const bounds[5] = {smallest(chosen(part, seen.lo_x, huge)), largest(chosen(part, seen.hi_x, low)),
                              smallest(chosen(part, seen.lo_y, huge)), largest(chosen(part, seen.hi_y, low)),
                              largest(chosen(part, seen.depth, low))};
+        insert(parts, tile, seen, part, pixels_across, bounds);
+    }
+
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across,
+                T const (&bounds)[5]) const noexcept {
         if (pixels_across > 1) {
             T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
             T const extent = width > height ? width : height;
             if (extent > T(1)) {
+                Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
                 Lanes const each = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
                 if (extent > largest(chosen(part, each, low)) * T(2 * pixels_across)) {
                     if (pixels_across == tile_side)

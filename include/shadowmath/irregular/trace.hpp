@@ -25,6 +25,7 @@
 #include <shadowmath/fault.hpp>
 #include <shadowmath/irregular/buffer.hpp>
 #include <shadowmath/irregular/casters.hpp>
+#include <shadowmath/irregular/chunk.hpp>
 #include <shadowmath/irregular/cover.hpp>
 #include <shadowmath/irregular/lanes.hpp>
 #include <shadowmath/irregular/lists.hpp>
@@ -47,134 +48,142 @@ struct TraceKernel {
     CoverKernel<Lanes> cover;
 
     using Batch = CasterBatch<Lanes>;
+    using Chunk = CasterChunk<Lanes>;
+    using Queue = typename CoverKernel<Lanes>::Queue;
 
-    // The levels that have a node which triangle k may touch.
-    [[nodiscard]] std::uint32_t levels_at(PlaceRange const& texels, T depth) const noexcept {
-        if (texels.x1 - texels.x0 > 3 || texels.y1 - texels.y0 > 3) return buffer.levels_used;
-        std::uint32_t levels = 0;
-        for (int y = texels.y0; y <= texels.y1; ++y)
-            for (int x = texels.x0; x <= texels.x1; ++x) {
-                int const texel = y * buffer.map_size + x;
-                levels |= buffer.texel_depth[texel] >= depth ? buffer.texel_levels[texel] : 0u;
-            }
-        return levels;
-    }
-
-    [[nodiscard]] PlaceRange places_of_triangle(Batch const& batch, int k) const noexcept {
-        T const bounds[4] = {batch.bounds[0][k], batch.bounds[1][k], batch.bounds[2][k], batch.bounds[3][k]};
-        return places_of(bounds, buffer.map_size);
-    }
-
-    // What a triangle is compared with nodes by.
-    struct Probe {
-        Lanes lo_x, hi_x, lo_y, hi_y, depth;
-        Batch const& batch;
-        int k;
-    };
-
-    // Queues the tiles of those nodes of [node, end) that the triangle may touch, and that it did not meet in a list
-    // before: those that begin at these edges of their cells or later. Nodes up to `all_across` may begin before x.
-    void scan(std::uint32_t node, std::uint32_t all_across, std::uint32_t end, T edge_x, T edge_y, Probe const& probe,
-              PairQueue& queue) const noexcept {
-        for (; node < end; node += lane_count) {
-            Lanes const lo_x = Lanes::load(buffer.lo_x + node), lo_y = Lanes::load(buffer.lo_y + node);
-            std::uint32_t hit = at_least(probe.hi_x, lo_x) & at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
-                                at_least(probe.hi_y, lo_y) & at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
-                                at_least(Lanes::load(buffer.depth + node), probe.depth) &
-                                at_least(lo_y, Lanes::all(edge_y)) &
-                                (at_least(lo_x, Lanes::all(edge_x)) | first_of(all_across, node));
-            hit &= first_of(end, node);
-            queue.count += Lanes::compress(hit, buffer.tile + node, queue.tile + queue.count);
-            if (queue.count < PairQueue::room) continue;
-            cover.cover(probe.batch, queue);
-            queue.open(probe.k);
-        }
-    }
-
-    [[nodiscard]] static std::uint32_t first_of(std::uint32_t end, std::uint32_t begin) noexcept {
-        if (end <= begin) return 0;
-        return end - begin < lane_count ? (1u << (end - begin)) - 1u : (1u << lane_count) - 1u;
-    }
-
-    // One triangle against the lists of the texels that it may cover.
-    void walk(Batch const& batch, int k, PairQueue& queue) const noexcept {
-        PlaceRange const places = places_of_triangle(batch, k);
+    // The list that a triangle begins in, of those whose cells are no narrower than it.
+    [[nodiscard]] std::uint32_t list_of(PlaceRange const& places, int extent) const noexcept {
         PlaceRange const texels = texels_of(places, 0);
-        std::uint32_t levels = levels_at(texels, batch.depth[k]);
-        if (levels == 0) return;
-        queue.open(k);
-        Probe const probe{Lanes::all(batch.bounds[0][k]),
-                          Lanes::all(batch.bounds[1][k]),
-                          Lanes::all(batch.bounds[2][k]),
-                          Lanes::all(batch.bounds[3][k]),
-                          Lanes::all(batch.depth[k]),
-                          batch,
-                          k};
-        T const anywhere = std::numeric_limits<T>::lowest();
-        std::uint32_t const* const first = buffer.first;
-        if ((levels & 1u) != 0)
-            for (int y = texels.y0; y <= texels.y1; ++y)
-                for (int x = texels.x0; x <= texels.x1; ++x) {
-                    int const texel = y * buffer.map_size + x;
-                    if (buffer.texel_depth[texel] < batch.depth[k] || (buffer.texel_levels[texel] & 1u) == 0) continue;
-                    bool const first_column = x == texels.x0, first_row = y == texels.y0;
-                    auto const division = static_cast<int>(buffer.texel_division[texel]);
-                    T const side = T(1) / T(1 << division);
-                    std::uint32_t const* const lists = first + buffer.texel_lists[texel];
-                    PlaceRange const in = divisions_of(places, x, y, division);
-                    scan(lists[0], first_column ? lists[1] : 0u, lists[1], T(x), first_row ? anywhere : T(y), probe,
-                         queue);
-                    T const edge_x = T(x) + T(first_column ? in.x0 + 1 : 0) * side;
-                    for (int j = in.y0; j <= in.y1; ++j) {
-                        std::uint32_t const* const row = lists + 1 + (j << division);
-                        scan(row[in.x0], first_column ? row[in.x0 + 1] : 0u, row[in.x1 + 1], edge_x,
-                             first_row && j == in.y0 ? anywhere : T(y) + T(j) * side, probe, queue);
-                    }
-                }
-        for (levels &= ~1u; levels != 0; levels &= levels - 1) {
-            int const level = lowest_bit(levels);
-            int const size = level_size(buffer.map_size, level);
-            T const side = T(1 << level_shift * level);
-            PlaceRange const range = texels_of(places, level);
-            for (int y = range.y0; y <= range.y1; ++y) {
-                std::uint32_t const* const row = first + buffer.level_first[level] + y * size;
-                scan(row[range.x0], row[range.x0 + 1], row[range.x1 + 1], T(range.x0 + 1) * side,
-                     y == range.y0 ? anywhere : T(y) * side, probe, queue);
-            }
+        if (extent > 1 << most_divisions) {
+            int level = 1;
+            while (level + 1 < buffer.level_count && extent > 1 << (most_divisions + level_shift * level)) ++level;
+            PlaceRange const at = coarser(texels, level_shift * level);
+            if (level < buffer.level_count)
+                return buffer.level_first[level] +
+                       static_cast<std::uint32_t>(at.y0 * level_size(buffer.map_size, level) + at.x0);
         }
-        queue.drop_empty();
+        int const texel = texels.y0 * buffer.map_size + texels.x0;
+        auto const k = static_cast<int>(buffer.texel_division[texel]);
+        int const first = 1 << most_divisions, shift = most_divisions - k;
+        int const in_x = (places.x0 & (first - 1)) >> shift, in_y = (places.y0 & (first - 1)) >> shift;
+        return buffer.texel_lists[texel] +
+               (extent > 1 << shift ? 0u : 1u + static_cast<std::uint32_t>((in_y << k) + in_x));
     }
 
-    // At most caster_block triangles, in the order of the texels that they begin in: what is next to each other in the
-    // grid is then in the caches, however the mesh was laid out.
-    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch, PairQueue& queue) const noexcept {
-        auto const texels = static_cast<std::uint32_t>(buffer.map_size * buffer.map_size);
-        std::uint32_t* const start = buffer.block_count;
-        std::memset(start, 0, (texels + 2) * sizeof(std::uint32_t));
-        for (std::uint32_t i = 0; i < count; i += lane_count) {
-            kernel.load(begin + i, count - i, nullptr, batch);
-            for (std::uint32_t k = 0; k < lane_count && i + k < count; ++k) {
-                std::uint32_t texel = texels;
-                if ((batch.sound >> k & 1u) != 0) {
-                    PlaceRange const at = texels_of(places_of_triangle(batch, static_cast<int>(k)), 0);
-                    if (levels_at(at, batch.depth[k]) != 0) {
-                        texel = static_cast<std::uint32_t>(at.y0 * buffer.map_size + at.x0);
-                        ++start[texel + 1];
-                    }
-                }
-                buffer.block_texel[i + k] = texel;
+    // Keeps the triangles that may touch a node, from `begin` on, until there is no room for more. Gives how many were
+    // looked at, and how many kept.
+    [[nodiscard]] std::uint32_t keep(std::uint32_t begin, std::uint32_t count, Batch& batch,
+                                     std::uint32_t& kept) const noexcept {
+        std::uint32_t places[4][lane_count];
+        Lanes const zero = Lanes::all(T(0)), last = Lanes::all(T((buffer.map_size << most_divisions) - 1));
+        Lanes const scale = Lanes::all(T(1 << most_divisions));
+        std::uint32_t done = 0, held = 0;
+        for (; done < count && held + lane_count <= buffer.caster_room; done += lane_count) {
+            kernel.load(begin + done, count - done, nullptr, batch);
+            for (int i = 0; i < 4; ++i)
+                least(most(Lanes::load(batch.bounds[i]) * scale, zero), last).store_words(places[i]);
+            for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
+                int const k = lowest_bit(bits);
+                PlaceRange const at{static_cast<int>(places[0][k]), static_cast<int>(places[1][k]),
+                                    static_cast<int>(places[2][k]), static_cast<int>(places[3][k])};
+                int const width = at.x1 - at.x0, height = at.y1 - at.y0, extent = width > height ? width : height;
+                PlaceRange const texels = texels_of(at, 0);
+                std::uint32_t const list = list_of(at, extent);
+                bool const in_block = extent <= 1 << most_divisions;
+                T const far_end = buffer.block_depth[texels.y0 * buffer.map_size + texels.x0];
+                std::uint32_t const met = !in_block || far_end >= batch.depth[k] ? 1u : 0u;
+                buffer.caster[held] = begin + done + static_cast<std::uint32_t>(k);
+                buffer.caster_list[held] = list;
+                buffer.caster_end[list + 1] += met;
+                held += met;
             }
         }
-        for (std::uint32_t texel = 0; texel < texels; ++texel) start[texel + 1] += start[texel];
-        std::uint32_t const kept = start[texels];
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (buffer.block_texel[i] != texels) buffer.block_order[start[buffer.block_texel[i]]++] = begin + i;
-        for (std::uint32_t i = 0; i < kept; i += lane_count) {
-            kernel.load(i, kept - i, buffer.block_order, batch);
-            kernel.raise_volumes(batch);
-            for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) walk(batch, lowest_bit(bits), queue);
-            cover.cover(batch, queue);
+        kept = held;
+        return done < count ? done : count;
+    }
+
+    // Puts them in the order of their lists: what is next to each other in the grid is then in the caches, however the
+    // mesh was laid out.
+    void sort(std::uint32_t kept) const noexcept {
+        std::uint32_t* const end = buffer.caster_end;
+        for (std::uint32_t list = 0; list < buffer.list_count; ++list) end[list + 1] += end[list];
+        for (std::uint32_t i = 0; i < kept; ++i) buffer.caster_order[end[buffer.caster_list[i]]++] = buffer.caster[i];
+    }
+
+    void search(Chunk const& chunk, std::uint32_t list, Cell<T> const& cell, T far_end, CellCasters<Lanes>& here,
+                Queue& queue) const noexcept {
+        std::uint32_t const begin = buffer.first[list], end = buffer.first[list + 1];
+        if (begin == end) return;
+        here.take(chunk.bounds, cell, far_end);
+        if (here.bounds.count == 0) return;
+        T const* bounds = buffer.bounds + 5 * std::size_t{begin};
+        for (std::uint32_t node = begin; node < end; ++node, bounds += 5) {
+            std::uint32_t const found = here.find(bounds, cell, queue.next());
+            if (found == 0) continue;
+            cover.enqueue(buffer.tile[node], found, queue);
+            if (queue.full()) cover.cover(chunk.raised, queue);
         }
+    }
+
+    // A chunk against the lists of all cells that it may touch.
+    void run(Chunk& chunk, CellCasters<Lanes>& here, Queue& queue) const noexcept {
+        if (chunk.bounds.count == 0) return;
+        chunk.bounds.end();
+        T bounds[5];
+        chunk.together(bounds);
+        T const anywhere = std::numeric_limits<T>::max();
+        PlaceRange const places = places_of(bounds, buffer.map_size);
+        for (std::uint32_t levels = buffer.levels_used; levels != 0; levels &= levels - 1) {
+            int const level = lowest_bit(levels), shift = most_divisions + level_shift * level;
+            int const size = level_size(buffer.map_size, level);
+            PlaceRange const range = coarser(places, shift);
+            for (int y = range.y0; y <= range.y1; ++y)
+                for (int x = range.x0; x <= range.x1; ++x) {
+                    int const texel = y * size + x;
+                    Cell<T> const cell = cell_at<T>(x, y, shift, buffer.map_size);
+                    if (level > 0) {
+                        search(chunk, buffer.level_first[level] + static_cast<std::uint32_t>(texel), cell, anywhere,
+                               here, queue);
+                        continue;
+                    }
+                    T const far_end = buffer.texel_depth[texel];
+                    if (far_end < bounds[4] || (buffer.texel_levels[texel] & 1u) == 0) continue;
+                    std::uint32_t const lists = buffer.texel_lists[texel];
+                    search(chunk, lists, cell, far_end, here, queue);
+                    auto const k = static_cast<int>(buffer.texel_division[texel]);
+                    PlaceRange const in = divisions_of(places, x, y, k);
+                    for (int j = in.y0; j <= in.y1; ++j)
+                        for (int i = in.x0; i <= in.x1; ++i)
+                            search(chunk, lists + 1 + static_cast<std::uint32_t>((j << k) + i),
+                                   cell_at<T>((x << k) + i, (y << k) + j, most_divisions - k, buffer.map_size), far_end,
+                                   here, queue);
+                }
+        }
+        cover.cover(chunk.raised, queue);
+        chunk.clear();
+    }
+
+    // Gives how many triangles were looked at.
+    [[nodiscard]] std::uint32_t run_block(std::uint32_t begin, std::uint32_t count) const noexcept {
+        constexpr std::uint32_t ahead = 4 * lane_count;
+        Batch batch;
+        Chunk chunk;
+        CellCasters<Lanes> here;
+        Queue queue;
+        std::memset(buffer.caster_end, 0, (buffer.list_count + 1) * sizeof(std::uint32_t));
+        std::uint32_t kept;
+        std::uint32_t const done = keep(begin, count, batch, kept);
+        sort(kept);
+        for (std::uint32_t i = 0; i < kept; i += lane_count) {
+            for (std::uint32_t k = i + ahead; k < i + ahead + lane_count && k < kept; ++k)
+                kernel.fetch(buffer.caster_order[k]);
+            kernel.load(i, kept - i, buffer.caster_order, batch);
+            kernel.raise_volumes(batch);
+            chunk.add(batch);
+            if (chunk.full()) run(chunk, here, queue);
+        }
+        run(chunk, here, queue);
+        return done;
     }
 };
 
@@ -196,14 +205,7 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
     detail::TraceKernel<Lanes> const kernel{
         buffer, {buffer, casters, frame, pixel_light(frame, buffer.source), w_floor}, {buffer, frame}};
-    detail::CasterBatch<Lanes> batch;
-    detail::PairQueue queue;
-    for (std::uint32_t done = 0; done < count;) {
-        std::uint32_t const block =
-            count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
-        kernel.run_block(first + done, block, batch, queue);
-        done += block;
-    }
+    for (std::uint32_t done = 0; done < count;) done += kernel.run_block(first + done, count - done);
 }
 
 // One word for each pixel of the buffer's part of the picture, row by row, `stride` words apart: 0 for sky. A stride of
@@ -218,10 +220,10 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
             std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
             continue;
         }
-        std::uint32_t const* in = buffer.mask +
-                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
-                                  row % tile_side * tile_side;
-        for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
+        std::uint32_t const* in = buffer.state +
+                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * tile_words +
+                                  mask_at + row % tile_side * tile_side;
+        for (int column = 0; column < rect.width; column += tile_side, in += tile_words) {
             int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
             std::memcpy(out + column, in, static_cast<std::size_t>(columns) * sizeof(std::uint32_t));
         }

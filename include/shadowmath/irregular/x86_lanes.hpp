@@ -43,6 +43,13 @@ struct Avx512Doubles {
     [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
         return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
     }
+    // See PlainLanes: rows.
+    [[nodiscard]] static Avx512Doubles rows(double const* const (&row)[4]) noexcept {
+        auto const two = [](double const* low, double const* high) {
+            return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+        };
+        return {two(row[0], row[1]), two(row[2], row[3])};
+    }
     void store(double* to) const noexcept {
         _mm512_storeu_pd(to, first);
         _mm512_storeu_pd(to + 8, second);
@@ -130,35 +137,40 @@ struct Avx512Lanes {
         components[1] = {_mm512_shuffle_ps(y0, y1, _MM_SHUFFLE(2, 0, 2, 0))};
         components[2] = {_mm512_shuffle_ps(z, c, _MM_SHUFFLE(3, 0, 2, 0))};
     }
-    [[nodiscard]] static Avx512Lanes picked(float const* from, std::uint32_t const* four) noexcept {
-        __m512i const place = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<__m128i const*>(four)));
-        return {_mm512_permutexvar_ps(place, _mm512_loadu_ps(from))};
-    }
-    [[nodiscard]] static Avx512Lanes quadrupled(float const* four) noexcept {
-        __m512i const place = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
-        return {_mm512_permutexvar_ps(place, _mm512_castps128_ps512(_mm_loadu_ps(four)))};
+    template <class At>
+    static void points(At const& at, Avx512Lanes (&xyz)[3]) noexcept {
+        auto const four = [&at](int k) {
+            auto const three = [&at](int lane) {
+                float const* const from = at(lane);
+                __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(from)));
+                return _mm_insert_ps(xy, _mm_load_ss(from + 2), 0x20);
+            };
+            __m256 const low = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k)), three(k + 4), 1);
+            __m256 const high = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k + 8)), three(k + 12), 1);
+            return _mm512_castpd_ps(
+                _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+        };
+        auto const pairs_low = [](__m512 a, __m512 b) { return _mm512_castps_pd(_mm512_unpacklo_ps(a, b)); };
+        auto const pairs_high = [](__m512 a, __m512 b) { return _mm512_castps_pd(_mm512_unpackhi_ps(a, b)); };
+        __m512 const a = four(0), b = four(1), c = four(2), d = four(3);
+        xyz[0] = {_mm512_castpd_ps(_mm512_unpacklo_pd(pairs_low(a, b), pairs_low(c, d)))};
+        xyz[1] = {_mm512_castpd_ps(_mm512_unpackhi_pd(pairs_low(a, b), pairs_low(c, d)))};
+        xyz[2] = {_mm512_castpd_ps(_mm512_unpacklo_pd(pairs_high(a, b), pairs_high(c, d)))};
     }
     void store_bytes(unsigned char* to) const noexcept {
         __m512 const inside = _mm512_min_ps(_mm512_max_ps(lanes, _mm512_setzero_ps()), _mm512_set1_ps(255.0f));
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_cvtepi32_epi8(_mm512_cvttps_epi32(inside)));
     }
-    [[nodiscard]] static std::uint32_t reached(float const* keys, float const* base, float const* gain,
-                                               unsigned char const* bytes, unsigned char const* more) noexcept {
-        __m256 const value =
-            _mm256_mul_ps(_mm256_sub_ps(_mm256_loadu_ps(keys), _mm256_loadu_ps(base)), _mm256_loadu_ps(gain));
-        // The second operand where the first is NaN.
-        __m256i const bound = _mm256_cvttps_epi32(_mm256_min_ps(value, _mm256_set1_ps(255.0f)));
-        unsigned const beyond = _mm256_cmp_ps_mask(value, _mm256_setzero_ps(), _CMP_LT_OQ) & 0x1fu;
-        __m512i const each =
-            _mm512_set_epi32(0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x08080808, 0x08080808, 0x08080808,
-                             0x08080808, 0x04040404, 0x04040404, 0x04040404, 0x04040404, 0, 0, 0, 0);
-        __m512i const bounds = _mm512_shuffle_epi8(_mm512_broadcast_i32x4(_mm256_castsi256_si128(bound)), each);
-        __m128i const last = _mm_shuffle_epi8(_mm256_extracti128_si256(bound, 1), _mm_setzero_si128());
-        std::uint64_t const four = _mm512_cmple_epu8_mask(_mm512_loadu_si512(bytes), bounds);
-        auto const two = static_cast<std::uint32_t>(four & four >> 32);
-        std::uint32_t const fifth = _mm_cmple_epu8_mask(_mm_loadu_si128(reinterpret_cast<__m128i const*>(more)), last);
-        return beyond != 0 ? 0u : two & two >> 16 & fifth;
+    [[nodiscard]] static Avx512Lanes narrow(Wide const& wide) noexcept {
+        __m256 const low = _mm512_cvtpd_ps(wide.first), high = _mm512_cvtpd_ps(wide.second);
+        return {_mm512_castpd_ps(
+            _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1))};
     }
+    [[nodiscard]] static Avx512Lanes load_bytes(unsigned char const* from) noexcept {
+        __m128i const bytes = _mm_loadu_si128(reinterpret_cast<__m128i const*>(from));
+        return {_mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(bytes))};
+    }
+    void store_words(std::uint32_t* to) const noexcept { _mm512_storeu_si512(to, _mm512_cvttps_epi32(lanes)); }
 
 private:
     // Four numbers of each row.
@@ -258,18 +270,24 @@ struct Avx2Lanes {
         halves(row[0], row[1], components[0].first, components[1].first, components[2].first);
         halves(row[2], row[3], components[0].second, components[1].second, components[2].second);
     }
-    [[nodiscard]] static Avx2Lanes picked(float const* from, std::uint32_t const* four) noexcept {
-        __m256i const place = _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<__m128i const*>(four)));
-        __m256 const low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), place);
-        __m256 const high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from + 8), place);
-        // Bit 3 of a place, as the sign.
-        __m256 const both = _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(place, 28)));
-        return {both, both};
-    }
-    [[nodiscard]] static Avx2Lanes quadrupled(float const* four) noexcept {
-        __m256 const all_four = _mm256_castps128_ps256(_mm_loadu_ps(four));
-        return {_mm256_permutevar8x32_ps(all_four, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1)),
-                _mm256_permutevar8x32_ps(all_four, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3))};
+    template <class At>
+    static void points(At const& at, Avx2Lanes (&xyz)[3]) noexcept {
+        auto const eight = [&at](int k, __m256& x, __m256& y, __m256& z) {
+            auto const two = [&at](int lane) {
+                auto const three = [](float const* from) {
+                    __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(from)));
+                    return _mm_insert_ps(xy, _mm_load_ss(from + 2), 0x20);
+                };
+                return _mm256_set_m128(three(at(lane + 4)), three(at(lane)));
+            };
+            __m256 const a = two(k), b = two(k + 1), c = two(k + 2), d = two(k + 3);
+            __m256 const ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+            x = _mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(1, 0, 1, 0));
+            y = _mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(3, 2, 3, 2));
+            z = _mm256_shuffle_ps(_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d), _MM_SHUFFLE(1, 0, 1, 0));
+        };
+        eight(0, xyz[0].first, xyz[1].first, xyz[2].first);
+        eight(8, xyz[0].second, xyz[1].second, xyz[2].second);
     }
     void store_bytes(unsigned char* to) const noexcept {
         auto const inside = [](__m256 eight) {
@@ -281,29 +299,20 @@ struct Avx2Lanes {
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
                          _mm_packus_epi16(_mm256_castsi256_si128(ordered), _mm256_extracti128_si256(ordered, 1)));
     }
-    [[nodiscard]] static std::uint32_t reached(float const* keys, float const* base, float const* gain,
-                                               unsigned char const* bytes, unsigned char const* more) noexcept {
-        __m256 const value =
-            _mm256_mul_ps(_mm256_sub_ps(_mm256_loadu_ps(keys), _mm256_loadu_ps(base)), _mm256_loadu_ps(gain));
-        // The second operand where the first is NaN.
-        __m256i const bound = _mm256_cvttps_epi32(_mm256_min_ps(value, _mm256_set1_ps(255.0f)));
-        int const beyond = _mm256_movemask_ps(_mm256_cmp_ps(value, _mm256_setzero_ps(), _CMP_LT_OQ)) & 0x1f;
-        __m256i const four = _mm256_broadcastsi128_si256(_mm256_castsi256_si128(bound));
-        auto const at_most = [](unsigned char const* from, __m256i limit) {
-            __m256i const here = _mm256_loadu_si256(reinterpret_cast<__m256i const*>(from));
-            return static_cast<std::uint32_t>(
-                _mm256_movemask_epi8(_mm256_cmpeq_epi8(_mm256_max_epu8(here, limit), limit)));
+    [[nodiscard]] static Avx2Lanes narrow(Wide const& wide) noexcept {
+        auto const four = [&wide](int k) { return _mm256_cvtpd_ps(_mm256_loadu_pd(wide.lane + k)); };
+        return {_mm256_set_m128(four(4), four(0)), _mm256_set_m128(four(12), four(8))};
+    }
+    [[nodiscard]] static Avx2Lanes load_bytes(unsigned char const* from) noexcept {
+        auto const eight = [](unsigned char const* bytes) {
+            __m128i const here = _mm_loadl_epi64(reinterpret_cast<__m128i const*>(bytes));
+            return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(here));
         };
-        __m256i const x = _mm256_setr_epi64x(0, 0, 0x0404040404040404, 0x0404040404040404);
-        __m256i const y =
-            _mm256_setr_epi64x(0x0808080808080808, 0x0808080808080808, 0x0c0c0c0c0c0c0c0c, 0x0c0c0c0c0c0c0c0c);
-        std::uint32_t const two =
-            at_most(bytes, _mm256_shuffle_epi8(four, x)) & at_most(bytes + 32, _mm256_shuffle_epi8(four, y));
-        __m128i const last = _mm_shuffle_epi8(_mm256_extracti128_si256(bound, 1), _mm_setzero_si128());
-        __m128i const here = _mm_loadu_si128(reinterpret_cast<__m128i const*>(more));
-        auto const fifth =
-            static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_max_epu8(here, last), last)));
-        return beyond != 0 ? 0u : two & two >> 16 & fifth;
+        return {eight(from), eight(from + 8)};
+    }
+    void store_words(std::uint32_t* to) const noexcept {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_cvttps_epi32(first));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + 8), _mm256_cvttps_epi32(second));
     }
 
 private:

@@ -8,23 +8,26 @@
 namespace shadowmath::fuzz {
 namespace {
 
-// A box of some metres, cut a few times, and a point that every cut has kept.
+// A box of some millimetres or kilometres, cut a few times, and a point that every cut has kept.
 template <class T>
 struct Cut {
     ConvexBody<T> body;
     Vec3<T> kept;
-    T slack;  // twenty roundings a cut over coordinates of at most 35 m
+    T unit;   // its coordinates are at most 35 of it
+    T slack;  // twenty roundings a cut over coordinates as large
     int cuts;
 };
 
 template <class T>
 Cut<T> cut_body(Case& c) {
-    Aabb<T> const start = small_box<T>(c, T(10));
-    Cut<T> cut{convex_body(start), in_box(c, start), T(20 * 18) * std::numeric_limits<T>::epsilon() * T(35),
+    T const unit = c.magnitude<T>(-10, 10);
+    Aabb<T> const start = small_box<T>(c, T(10) * unit);
+    Vec3<T> const kept = in_box(c, start);
+    Cut<T> cut{convex_body(start), kept, unit, T(20 * 18) * std::numeric_limits<T>::epsilon() * T(35) * unit,
                c.below(10)};
     for (int i = 0; i < cut.cuts; ++i) {
         Vec3<T> const normal = direction<T>(c);
-        Vec4<T> const half_space(normal, c.uniform<T>(T(0.01), T(5)) - glm::dot(normal, cut.kept));
+        Vec4<T> const half_space(normal, c.uniform<T>(T(0.01), T(5)) * unit - glm::dot(normal, cut.kept));
         cut.body = c.call([&] { return clipped(cut.body, half_space); });
         c.require(laws::lies_inside(cut.body, half_space, cut.slack), "a cut leaves nothing outside");
     }
@@ -38,23 +41,24 @@ void try_bodies(Case& c) {
     c.require(cut.cuts > 1 || laws::is_a_polyhedron(cut.body), "a cut body is a polyhedron");
     Light<T> const sun = good_sun<T>(c);
     bool const is_sun = c.one_in(2);
-    Vec3<T> const place = point_within<T>(c, T(50));
-    Light<T> const light = is_sun ? sun : spot(place, sun.direction, T(1), T(100));
+    Vec3<T> const place = point_within<T>(c, T(50) * cut.unit);
+    Light<T> const light = is_sun ? sun : spot(place, sun.direction, T(1), T(100) * cut.unit);
     HalfSpaces<T> const swept = c.call([&] { return swept_to_light(cut.body, homogeneous(light)); });
-    Vec3<T> const way = is_sun ? -light.direction * T(200) : light.position - cut.kept;
-    // As for the body, over 250 m on the way to the light.
-    T const slack = T(220) * std::numeric_limits<T>::epsilon() * T(250);
+    Vec3<T> const way = is_sun ? -light.direction * (T(200) * cut.unit) : light.position - cut.kept;
+    // As for the body, over 250 units on the way to the light.
+    T const slack = T(220) * std::numeric_limits<T>::epsilon() * T(250) * cut.unit;
     c.require(laws::inside(swept, cut.kept + way * c.uniform<T>(T(0), T(1)), slack), "all of the way is swept");
-    Vec3<T> const point = cut.kept + point_within<T>(c, T(30));
+    Vec3<T> const point = cut.kept + point_within<T>(c, T(30) * cut.unit);
     bool const casts = laws::inside(swept, point, T(0));
     // At the lamp itself all rays meet, and none has a direction.
-    bool const apart = is_sun || glm::length(point - place) > T(1);
-    c.require(!apart || laws::casts_on(cut.body, homogeneous(light), point, casts ? T(1e-3) : T(-1e-3)) == casts,
+    bool const apart = is_sun || glm::length(point - place) > cut.unit;
+    T const around = casts ? T(1e-3) * cut.unit : T(-1e-3) * cut.unit;
+    c.require(!apart || laws::casts_on(cut.body, homogeneous(light), point, around) == casts,
               "what is swept is what casts");
 
     LightBasis<T> const basis = light_basis(sun.direction);
     T const margin = c.uniform<T>(T(0), T(8));
-    int const size = 64 + c.below(8000);
+    int const size = 19 + c.below(8000);
     Vec3<T> const last = direction<T>(c);
     T const hysteresis = c.number<T>();
     LightBox<T> const box = c.call([&] { return fit_rectangle(basis, cut.body, size, margin, last, hysteresis); });
