@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -26,12 +27,15 @@ std::string with_digits(double value, int digits, char const* unit) {
 
 // Three digits.
 std::string three(double value, char const* unit) {
-    return with_digits(value, value < 9.995 ? 2 : (value < 99.95 ? 1 : 0), unit);
+    double const size = std::abs(value);
+    return with_digits(value, size < 9.995 ? 2 : (size < 99.95 ? 1 : 0), unit);
 }
 
 std::string time(double nanoseconds) {
-    if (nanoseconds < 1e3) return three(nanoseconds, "&nbsp;ns");
-    if (nanoseconds < 1e6) return three(nanoseconds / 1e3, "&nbsp;µs");
+    // What an include costs above GLM may be less than nothing.
+    double const size = std::abs(nanoseconds);
+    if (size < 1e3) return three(nanoseconds, "&nbsp;ns");
+    if (size < 1e6) return three(nanoseconds / 1e3, "&nbsp;µs");
     return three(nanoseconds / 1e6, "&nbsp;ms");
 }
 
