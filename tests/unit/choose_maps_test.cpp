@@ -277,6 +277,8 @@ TEST(ChooseMaps, SaysWhatItHasChosen) {
     }
     EXPECT_GT(samples, 100);
     EXPECT_LE(samples, max_search_samples);
+    for (MapShape const shape : {MapShape::rectangle, MapShape::warp, MapShape::lopsided})
+        EXPECT_GT(std::string(describe(shape)).size(), 20u);
     EXPECT_STREQ(describe(static_cast<MapShape>(99)), "no map");
 }
 
