@@ -12,7 +12,13 @@
 #include <cstring>
 #include <limits>
 
-#include <glm/glm.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 // ======== shadowmath/version.hpp ========
 //
@@ -26,7 +32,8 @@
 //
 // The one place where GLM comes in, the names of its types, and the assertion.
 //
-// GLM's macros may be set in any way: shadowmath calls nothing whose meaning depends on them.
+// No more of GLM than is used: all of it takes an eighth longer to compile, and whoever wants it includes it. GLM's
+// macros may be set in any way: shadowmath calls nothing whose meaning depends on them.
 // To replace the assertion, put a header <shadowmath_user_config.hpp> that defines SHADOWMATH_ASSERT on the include
 // path.
 
@@ -855,14 +862,20 @@ inline constexpr T farthest_metres = T(1e18);
 template <class T>
 inline constexpr T least_metres = T(1e-18);
 
+// std::fmax of what is not negative; without a call of it, which is what compilers make of that one.
+template <class T>
+[[nodiscard]] inline T larger(T a, T b) noexcept {
+    return b < a || b != b ? a : b;
+}
+
 template <class T>
 [[nodiscard]] inline T largest_of(Vec3<T> const& v) noexcept {
-    return std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
+    return larger(std::abs(v.x), larger(std::abs(v.y), std::abs(v.z)));
 }
 
 template <class T>
 [[nodiscard]] inline T largest_of(Aabb<T> const& box) noexcept {
-    return std::fmax(largest_of(box.lo), largest_of(box.hi));
+    return larger(largest_of(box.lo), largest_of(box.hi));
 }
 
 // The top bit is set where a value that is not negative is a NaN, an infinity, or 2^60 and more (above
@@ -996,7 +1009,7 @@ inline void close_splits(Splits<T>& splits, T z_near, T z_far) noexcept {
     for (int i = 1; i < splits.count; ++i)
         if (splits.plane[i] > splits.plane[kept] && splits.plane[i] < z_far) splits.plane[++kept] = splits.plane[i];
     splits.plane[++kept] = z_far;
-    if (kept != splits.count) splits.faults |= Fault::count_clamped;
+    splits.faults |= Fault::count_clamped;
     for (int i = kept + 1; i <= splits.count; ++i) splits.plane[i] = T(0);
     splits.count = kept;
 }
@@ -1344,11 +1357,16 @@ namespace detail {
 
 template <class T>
 struct Lanes {
+    static constexpr int fours = 1;
     T at[4];
 
     [[nodiscard]] static Lanes of(T a, T b, T c, T d) noexcept { return {{a, b, c, d}}; }
+    [[nodiscard]] static Lanes all(T a) noexcept { return {{a, a, a, a}}; }
     [[nodiscard]] T operator[](int i) const noexcept { return at[i]; }
 
+    friend Lanes absolute(Lanes const& a) noexcept {
+        return {{std::abs(a.at[0]), std::abs(a.at[1]), std::abs(a.at[2]), std::abs(a.at[3])}};
+    }
     friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept {
         return {{a.at[0] + b.at[0], a.at[1] + b.at[1], a.at[2] + b.at[2], a.at[3] + b.at[3]}};
     }
@@ -1384,12 +1402,23 @@ struct Lanes {
 
 template <>
 struct Lanes<float> {
+    static constexpr int fours = 1;
     using Register [[gnu::vector_size(16)]] = float;
     Register at;
 
     [[nodiscard]] static Lanes of(float a, float b, float c, float d) noexcept { return {Register{a, b, c, d}}; }
+    [[nodiscard]] static Lanes all(float a) noexcept { return {Register{a, a, a, a}}; }
     [[nodiscard]] float operator[](int i) const noexcept { return at[i]; }
 
+    friend Lanes absolute(Lanes const& a) noexcept {
+        using Bits [[gnu::vector_size(16)]] = std::uint32_t;
+        Bits bits;
+        std::memcpy(&bits, &a, sizeof bits);
+        bits &= 0x7fffffffu;
+        Lanes made;
+        std::memcpy(&made, &bits, sizeof bits);
+        return made;
+    }
     friend Lanes operator+(Lanes const& a, Lanes const& b) noexcept { return {a.at + b.at}; }
     friend Lanes operator-(Lanes const& a, Lanes const& b) noexcept { return {a.at - b.at}; }
     friend Lanes operator*(Lanes const& a, Lanes const& b) noexcept { return {a.at * b.at}; }
@@ -1429,11 +1458,11 @@ template <class T>
     return Lanes<T>::of(four[1], four[2], four[3], after);
 }
 
-// Rows for columns.
-template <class T>
-inline void transpose(Lanes<T> (&rows)[4]) noexcept {
-    Lanes<T> const a = rows[0], b = rows[1], c = rows[2], d = rows[3];
-    for (int i = 0; i < 4; ++i) rows[i] = Lanes<T>::of(a[i], b[i], c[i], d[i]);
+// The places a, b, c and d of the four; 4 to 7 are those of `more`.
+template <int a, int b, int c, int d, class T>
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four, Lanes<T> const& more) noexcept {
+    auto const at = [&](int i) { return i < 4 ? four[i] : more[i - 4]; };
+    return Lanes<T>::of(at(a), at(b), at(c), at(d));
 }
 
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
@@ -1445,6 +1474,10 @@ public:
     }
     // Parts of unit vectors: 2 and more is beyond, as the rounding that is allowed for would be too little.
     void look_at_parts(Lanes<T> const& four) noexcept { look_at(four * Lanes<T>::of(big, big, big, big)); }
+    // Whatever is finite is within reach.
+    void look_for_finite(Lanes<T> const& four) noexcept {
+        for (int i = 0; i < 4; ++i) beyond_ |= all_finite(&four.at[i], 1) ? 0 : ~decltype(beyond_)(0);
+    }
     [[nodiscard]] bool any() const noexcept { return beyond_ >> (8 * sizeof beyond_ - 1) != 0; }
 
 private:
@@ -1460,16 +1493,9 @@ template <>
     return {__builtin_shufflevector(four.at, Lanes<float>::Register{after}, 1, 2, 3, 4)};
 }
 
-template <>
-inline void transpose(Lanes<float> (&rows)[4]) noexcept {
-    auto const a = __builtin_shufflevector(rows[0].at, rows[1].at, 0, 4, 1, 5);
-    auto const b = __builtin_shufflevector(rows[2].at, rows[3].at, 0, 4, 1, 5);
-    auto const c = __builtin_shufflevector(rows[0].at, rows[1].at, 2, 6, 3, 7);
-    auto const d = __builtin_shufflevector(rows[2].at, rows[3].at, 2, 6, 3, 7);
-    rows[0].at = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-    rows[1].at = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-    rows[2].at = __builtin_shufflevector(c, d, 0, 1, 4, 5);
-    rows[3].at = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+template <int a, int b, int c, int d>
+[[nodiscard]] inline Lanes<float> picked(Lanes<float> const& four, Lanes<float> const& more) noexcept {
+    return {__builtin_shufflevector(four.at, more.at, a, b, c, d)};
 }
 #endif
 
@@ -1486,6 +1512,11 @@ public:
         std::memcpy(&bits, &four, sizeof bits);
         beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x40000000u);
     }
+    void look_for_finite(Lanes<float> const& four) noexcept {
+        Bits bits;
+        std::memcpy(&bits, &four, sizeof bits);
+        beyond_ |= (bits & 0x7fffffffu) + (0x80000000u - 0x7f800000u);
+    }
     [[nodiscard]] bool any() const noexcept {
         std::uint64_t halves[2];
         std::memcpy(halves, &beyond_, sizeof halves);
@@ -1498,6 +1529,22 @@ private:
 };
 
 #endif
+
+template <int a, int b, int c, int d, class T>
+[[nodiscard]] inline Lanes<T> picked(Lanes<T> const& four) noexcept {
+    return picked<a, b, c, d>(four, four);
+}
+
+// Rows for columns.
+template <class T>
+inline void transpose(Lanes<T> (&rows)[4]) noexcept {
+    Lanes<T> const a = picked<0, 4, 1, 5>(rows[0], rows[1]), b = picked<0, 4, 1, 5>(rows[2], rows[3]);
+    Lanes<T> const c = picked<2, 6, 3, 7>(rows[0], rows[1]), d = picked<2, 6, 3, 7>(rows[2], rows[3]);
+    rows[0] = picked<0, 1, 4, 5>(a, b);
+    rows[1] = picked<2, 3, 6, 7>(a, b);
+    rows[2] = picked<0, 1, 4, 5>(c, d);
+    rows[3] = picked<2, 3, 6, 7>(c, d);
+}
 
 template <class T>
 [[nodiscard]] inline Lanes<T> four_at(T const* values) noexcept {
@@ -1574,8 +1621,9 @@ struct ViewInLight {
     Lanes<T> eye_hi;    // and the largest
     Lanes<T> slope_lo;  // by which they grow with depth
     Lanes<T> slope_hi;
-    Lanes<T> forward;
-    T rounding_slope;  // by which the rounding of a coordinate grows with depth
+    Lanes<T> eye, forward, right, up;  // the view's pose
+    T sides;                           // how far they are from the middle, all together
+    T rounding_slope;                  // by which the rounding of a coordinate grows with depth
 };
 
 template <class T>
@@ -1610,11 +1658,12 @@ template <class T>
     Pose<T> const& pose = view.pose;
     Lanes<T> const eye = along(pose.position), forward = along(pose.forward);
     Lanes<T> const right = along(pose.right), up = along(pose.up);
-    seen.forward = forward;
+    seen.eye = eye, seen.forward = forward, seen.right = right, seen.up = up;
     Lanes<T> const a = right * all_four(view.left), b = right * all_four(view.right);
     Lanes<T> const c = up * all_four(view.bottom), d = up * all_four(view.top);
     Lanes<T> const lo = least(a, b) + least(c, d), hi = largest(a, b) + largest(c, d);
     T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
+    seen.sides = sides;
     constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
     if (view.kind == ViewKind::orthographic) {
         Lanes<T> const rounding = all_four(unit * (absolute_sum(pose.position) + sides));
@@ -1907,169 +1956,496 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/polytope.hpp ========
+// ======== shadowmath/long_lanes.hpp ========
 //
-// A convex body that planes can cut: what a view sees of a box, what a light reaches of that. No heap, no sorting.
-//
-// The body is its edges, each with the two faces that meet there. A plane shortens edges; every face that it cuts is
-// left with two ends, and the line between them is a new edge, shared with the new face. So nothing ever needs to be
-// in order. Each face also keeps its own plane, which sweep.hpp follows the light with. Use it to bound what a map must
-// hold; for a box alone bounds.hpp is enough.
+// Several fours (lanes.hpp) that are computed with as one: as many as a register of the processor holds that the
+// compiler is told of. Loops take `fours` steps at a time, and are the same source for one, two and four.
 
 namespace shadowmath {
 inline namespace v0 {
-
-// Six faces to begin with and up to twenty-six cuts: a polyhedron of f faces has at most 3 f - 6 edges.
-inline constexpr int max_body_faces = 32;
-inline constexpr int max_body_edges = 3 * max_body_faces - 6;
+namespace detail {
 
 template <class T>
-struct ConvexBody {
-    struct Edge {
-        Vec3<T> a;
-        Vec3<T> b;
-        std::array<std::uint8_t, 2> face;
-    };
-    std::array<Edge, max_body_edges> edges;
-    std::array<Vec4<T>, max_body_faces> half_space;  // of each face, >= 0 inside, of any length; 0 where none is known
-    int edge_count = 0;                              // 0: nothing left
-    int face_count = 0;
+struct LongLanesOf {
+    using Type = Lanes<T>;
 };
 
-// From eight corners whose indices differ in one bit along an edge: a box, a view volume. A face without area has no
-// plane of its own.
-template <class T>
-[[nodiscard]] inline ConvexBody<T> convex_body(std::array<Vec3<T>, 8> const& corners) noexcept {
-    ConvexBody<T> body;
-    body.face_count = 6;
-    for (unsigned i = 0; i < 8; ++i)
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            if ((i >> axis & 1u) != 0) continue;
-            // Face 2 * axis is the one at the axis' lower end; an edge along one axis lies in faces of the other two.
-            unsigned const u = (axis + 1) % 3, v = (axis + 2) % 3;
-            body.edges[static_cast<unsigned>(body.edge_count++)] = {
-                corners[i],
-                corners[i | 1u << axis],
-                {static_cast<std::uint8_t>(2 * u + (i >> u & 1u)), static_cast<std::uint8_t>(2 * v + (i >> v & 1u))}};
-        }
-    for (unsigned face = 0; face < 6; ++face) {
-        unsigned const axis = face / 2, at = (face & 1u) << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
-        // The diagonals span the face even where two of its corners are one.
-        Vec3<T> const across = corners[at | u | v] - corners[at], aside = corners[at | v] - corners[at | u];
-        Vec3<T> const normal = safe_normalize(glm::cross(across, aside)).direction;
-        Vec3<T> const middle = (corners[at] + corners[at | u | v]) * T(0.5);
-        Vec3<T> const opposite = (corners[at ^ 1u << axis] + corners[(at ^ 1u << axis) | u | v]) * T(0.5);
-        T const sign = glm::dot(normal, opposite - middle) < T(0) ? T(-1) : T(1);
-        body.half_space[face] = sign * Vec4<T>(normal, -glm::dot(normal, middle));
+#if defined(__GNUC__) && defined(__AVX__) && (defined(__clang__) || __GNUC__ >= 12)
+
+struct LongFloats {
+#if defined(__AVX512F__)
+    static constexpr int fours = 4;
+#else
+    static constexpr int fours = 2;
+#endif
+    using Register [[gnu::vector_size(16 * fours)]] = float;
+    Register at;
+
+#if defined(__AVX512F__)
+    [[nodiscard]] static LongFloats all(float a) noexcept {
+        return {Register{a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}};
     }
-    return body;
+#else
+    [[nodiscard]] static LongFloats all(float a) noexcept {
+        return {Register{a, a, a, a, a, a, a, a}};
+    }
+#endif
+    friend LongFloats operator+(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at + b.at};
+    }
+    friend LongFloats operator-(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at - b.at};
+    }
+    friend LongFloats operator*(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at * b.at};
+    }
+    friend LongFloats least(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at < b.at ? a.at : b.at};
+    }
+    friend LongFloats largest(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at > b.at ? a.at : b.at};
+    }
+    friend LongFloats where_at_most(LongFloats const& a, LongFloats const& b, LongFloats const& then,
+                                    LongFloats const& otherwise) noexcept {
+        return {a.at <= b.at ? then.at : otherwise.at};
+    }
+};
+
+template <>
+struct LongLanesOf<float> {
+    using Type = LongFloats;
+};
+
+#endif
+
+template <class T>
+using LongLanes = typename LongLanesOf<T>::Type;
+
+// The same four throughout.
+template <class Long, class T>
+[[nodiscard]] inline Long repeated(Lanes<T> const& four) noexcept {
+    if constexpr (Long::fours == 1) return four;
+#if defined(__AVX512F__) && defined(__clang__)
+    if constexpr (Long::fours == 4)
+        return {__builtin_shufflevector(four.at, four.at, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3)};
+#elif defined(__AVX512F__)
+    if constexpr (Long::fours == 4)
+        return {__builtin_ia32_broadcastf32x4_512(four.at, typename Long::Register{}, 0xffff)};
+#elif defined(__AVX__)
+    if constexpr (Long::fours == 2) return {__builtin_shufflevector(four.at, four.at, 0, 1, 2, 3, 0, 1, 2, 3)};
+#endif
 }
 
-// A box: its planes are known even where it is flat.
-template <class T>
-[[nodiscard]] inline ConvexBody<T> convex_body(Aabb<T> const& box) noexcept {
-    ConvexBody<T> body = convex_body(corners(box));
-    for (int axis = 0; axis < 3; ++axis) {
-        Vec3<T> normal(T(0));
-        normal[axis] = T(1);
-        body.half_space[static_cast<unsigned>(2 * axis)] = Vec4<T>(normal, -box.lo[axis]);
-        body.half_space[static_cast<unsigned>(2 * axis + 1)] = Vec4<T>(-normal, box.hi[axis]);
+// four[first] in the first four places, four[first + 1] in the next.
+template <class Long, class T>
+[[nodiscard]] inline Long spread(Lanes<T> const& four, int first) noexcept {
+    if constexpr (Long::fours == 1) return Long::all(four[first]);
+#if defined(__AVX512F__)
+    if constexpr (Long::fours == 4) {
+        auto const all = repeated<Long>(four).at;
+        return {__builtin_shufflevector(all, all, 0, 0, 0, 0, 5, 5, 5, 5, 10, 10, 10, 10, 15, 15, 15, 15)};
     }
-    return body;
+#elif defined(__AVX__)
+    if constexpr (Long::fours == 2) {
+        auto const all = repeated<Long>(four).at;
+        return first == 0 ? Long{__builtin_shufflevector(all, all, 0, 0, 0, 0, 5, 5, 5, 5)}
+                          : Long{__builtin_shufflevector(all, all, 2, 2, 2, 2, 7, 7, 7, 7)};
+    }
+#endif
 }
 
-// Every vertex, each as often as edges meet there.
-template <class T, class Visit>
-inline void for_each_vertex(ConvexBody<T> const& body, Visit&& visit) noexcept {
-    for (int i = 0; i < body.edge_count; ++i) {
-        visit(body.edges[static_cast<unsigned>(i)].a);
-        visit(body.edges[static_cast<unsigned>(i)].b);
-    }
+template <class Long, class T>
+[[nodiscard]] inline Long long_at(T const* values) noexcept {
+    Long lanes;
+    std::memcpy(&lanes, values, sizeof lanes);
+    return lanes;
 }
 
-// The part where half_space . (p, 1) >= 0. Flat bodies and planes through vertices are no special case: a vertex is
-// inside or outside, the same for all its edges.
-template <class T>
-[[nodiscard]] inline ConvexBody<T> clipped(ConvexBody<T> const& body, Vec4<T> const& half_space) noexcept {
-    SHADOWMATH_ASSERT(body.face_count < max_body_faces, "a convex body was cut too often");
-    if (body.face_count >= max_body_faces) return body;
-    ConvexBody<T> kept;
-    kept.half_space = body.half_space;
-    kept.half_space[static_cast<unsigned>(body.face_count)] = half_space;
-    auto const add = [&kept](typename ConvexBody<T>::Edge const& edge) {
-        if (kept.edge_count < max_body_edges) kept.edges[static_cast<unsigned>(kept.edge_count++)] = edge;
-    };
-    auto const cap = static_cast<std::uint8_t>(body.face_count);
-    kept.face_count = body.face_count + 1;
-    std::array<Vec3<T>, max_body_faces> end_of_face;
-    std::array<bool, max_body_faces> open{};
-    for (int i = 0; i < body.edge_count; ++i) {
-        typename ConvexBody<T>::Edge edge = body.edges[static_cast<unsigned>(i)];
-        T const at_a = glm::dot(half_space, Vec4<T>(edge.a, T(1))), at_b = glm::dot(half_space, Vec4<T>(edge.b, T(1)));
-        bool const a_inside = at_a >= T(0), b_inside = at_b >= T(0);
-        if (!a_inside && !b_inside) continue;
-        if (a_inside != b_inside) {
-            // From the inner end: a far outer one then costs no precision.
-            T const t = a_inside ? at_a / (at_a - at_b) : at_b / (at_b - at_a);
-            Vec3<T> const cut = a_inside ? edge.a + (edge.b - edge.a) * t : edge.b + (edge.a - edge.b) * t;
-            (a_inside ? edge.b : edge.a) = cut;
-            for (std::uint8_t const face : edge.face) {
-                if (open[face]) add({end_of_face[face], cut, {face, cap}});
-                end_of_face[face] = cut;
-                open[face] = !open[face];
-            }
-        }
-        add(edge);
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/slice_edges.hpp ========
+//
+// The edges of a view's slices and of a box in it, cut and bounded in light space: the inside of slices_in_scene.hpp.
+//
+// The corners of what a slice and a box have in common are where edges of one end, inside the other, or pass through
+// its faces. So nothing but edges is clipped, each once for all slices, four at a time:
+//
+//   four corner rays of the view     to the box, then to the depths of every slice
+//   four sides of each split plane   to the box; they belong to the slices on either side
+//   twelve edges of the box          to the four sides of the view, then to the depths of every slice
+//
+// Source: ours. Edges instead of faces, as in polytope.hpp, but none is ever new.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Several vectors at a time.
+template <class L>
+struct Vectors {
+    L x, y, z;
+
+    [[gnu::always_inline]] friend Vectors operator+(Vectors const& a, Vectors const& b) noexcept {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
     }
-    return kept;
+    [[gnu::always_inline]] friend Vectors operator*(Vectors const& a, L const& s) noexcept {
+        return {a.x * s, a.y * s, a.z * s};
+    }
+    [[gnu::always_inline]] friend Vectors least(Vectors const& a, Vectors const& b) noexcept {
+        return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
+    }
+    [[gnu::always_inline]] friend Vectors largest(Vectors const& a, Vectors const& b) noexcept {
+        return {largest(a.x, b.x), largest(a.y, b.y), largest(a.z, b.z)};
+    }
+};
+
+template <class T>
+using FourVectors = Vectors<Lanes<T>>;
+template <class T>
+using LongVectors = Vectors<LongLanes<T>>;
+
+// Multiples of one vector.
+template <class L, class T>
+[[nodiscard, gnu::always_inline]] inline Vectors<L> times(L const& s, Vec3<T> const& v) noexcept {
+    return {s * L::all(v.x), s * L::all(v.y), s * L::all(v.z)};
 }
 
-// The same body elsewhere.
 template <class T>
-[[nodiscard]] inline ConvexBody<T> translated(ConvexBody<T> const& body, Vec3<T> const& offset) noexcept {
-    ConvexBody<T> moved = body;
-    for (int i = 0; i < body.edge_count; ++i) {
-        moved.edges[static_cast<unsigned>(i)].a += offset;
-        moved.edges[static_cast<unsigned>(i)].b += offset;
-    }
-    for (int i = 0; i < body.face_count; ++i) {
-        Vec4<T>& plane = moved.half_space[static_cast<unsigned>(i)];
-        plane.w -= glm::dot(Vec3<T>(plane), offset);
-    }
-    return moved;
+[[nodiscard, gnu::always_inline]] inline LongVectors<T> repeated(FourVectors<T> const& v) noexcept {
+    using Long = LongLanes<T>;
+    return {repeated<Long>(v.x), repeated<Long>(v.y), repeated<Long>(v.z)};
 }
 
-// What a view sees of a box, RELATIVE TO THE EYE: add view.pose.position for world points. Boxes of +-FLT_MAX are cut
-// to the bounds of the view before any arithmetic. A valid view with a finite z_far; an empty box gives an empty body.
-// `slack_metres` moves every plane outward: a wedge thinner than a rounding then loses nothing of its tip.
+// Least and largest light-space coordinates of edges.
+template <class L>
+struct ExtentInLanes {
+    Vectors<L> lo;
+    Vectors<L> hi;
+
+    [[gnu::always_inline]] void add(ExtentInLanes const& other) noexcept {
+        lo = least(lo, other.lo);
+        hi = largest(hi, other.hi);
+    }
+};
+
+// Half a step along edges, and how long that is along each axis.
+template <class L>
+struct HalfStep {
+    Vectors<L> step;
+    Vectors<L> size;
+};
+
+// NOTE: no size is zero: an edge that is none must be seen on every axis.
 template <class T>
-[[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world,
-                                                T slack_metres = T(0)) noexcept {
-    if (is_empty(box_in_world)) return {};
-    Vec3<T> const &x = view.pose.right, &y = view.pose.up, &z = view.pose.forward;
-    ViewVolume<T> centred = view;
-    centred.pose.position = Vec3<T>(T(0));
-    // NOTE: the square of this bound, times a few, still fits into a float.
-    Aabb<T> const bound{Vec3<T>(T(-1e12)), Vec3<T>(T(1e12))};
-    Vec3<T> const slack(slack_metres);
-    Aabb<T> const relative{box_in_world.lo - view.pose.position - slack, box_in_world.hi - view.pose.position + slack};
-    Aabb<T> const seen = bounds_of(corners(centred));
-    Aabb<T> const box = intersect(intersect(relative, Aabb<T>{seen.lo - slack, seen.hi + slack}), bound);
-    if (is_empty(box)) return {};
+[[nodiscard, gnu::always_inline]] inline HalfStep<LongLanes<T>> half_of(FourVectors<T> const& step) noexcept {
+    Lanes<T> const half = all_four(T(0.5)), tiny = all_four(T(1e-18));
+    FourVectors<T> const halved = step * half;
+    auto const size = [&tiny](Lanes<T> const& a) { return absolute(a) + tiny; };
+    return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
+}
+
+// What edges, from `origin` on, reach between a and b: around their middle, by half their length. Where a > b an edge
+// is none, and its extent is inside out by more than anything can be long.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
+                                                                    L const& a, L const& b) noexcept {
+    Vectors<L> const middle = origin + half.step * (a + b);
+    L const length = where_at_most(a, b, b - a, L::all(-3e38f));
+    Vectors<L> const reach = half.size * length;
+    return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
+}
+
+// Metres along edges at which they enter and leave the box between two of its faces, for edges whose origin lies
+// `shift` farther along.
+template <class L>
+struct Passage {
+    L enter, leave;
+
+    [[gnu::always_inline]] void cut(L const& shift, L& first, L& last) const noexcept {
+        first = largest(first, enter - shift);
+        last = least(last, leave - shift);
+    }
+};
+
+// Edges from `from` on; `inverse`: metres along them for one across.
+// NOTE: products before differences: one difference serves all that are parallel, and is as near as that of rounded
+// places can be.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline Passage<L> passage(L const& lo, L const& hi, L const& from,
+                                                            L const& inverse) noexcept {
+    L const a = lo * inverse, b = hi * inverse, shift = from * inverse;
+    return {least(a, b) - shift, largest(a, b) - shift};
+}
+
+// Nothing is divided by less than this. Planes are some epsilon of the view's reach farther out than they are: along
+// what leans less, none of them is met within a million times the length of an edge.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
+    Lanes<T> const tiny = all_four(T(1e-6) * std::numeric_limits<T>::epsilon());
+    return where_at_most(tiny, absolute(value), value, tiny);
+}
+
+// A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
+// at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
+template <class T>
+struct ViewOfBox {
+    Pose<T> const* pose;
+    ViewInLight<T> lit;
+    Lanes<T> slope;
+    Lanes<T> offset;
+    Lanes<T> lo;  // x, y, z
+    Lanes<T> hi;
+    T slack;
+};
+
+// False where the numbers are none that products of three can be made of, or nothing is there. After look(), which has
+// seen that the view is finite and filled in `lit`.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline bool look_at_box(ViewVolume<T> const& view, T farthest, Aabb<T> const& scene,
+                                                          ViewOfBox<T>& seen) noexcept {
+    using Lanes = Lanes<T>;
+    constexpr T most = T(1e12);
+    Vec3<T> const& eye = view.pose.position;
+    T const x = std::abs(eye.x), y = std::abs(eye.y), z = std::abs(eye.z), sides = seen.lit.sides;
     bool const flat = view.kind == ViewKind::orthographic;
-    auto const side = [&z, flat, slack_metres](Vec3<T> const& inward, T limit) {
-        if (flat) return Vec4<T>(inward, slack_metres - limit);
-        return Vec4<T>(safe_normalize(inward - z * limit).direction, slack_metres);
-    };
-    ConvexBody<T> body = convex_body(box);
-    body = clipped(body, side(x, view.left));
-    body = clipped(body, side(-x, -view.right));
-    body = clipped(body, side(y, view.bottom));
-    body = clipped(body, side(-y, -view.top));
-    body = clipped(body, Vec4<T>(z, slack_metres - view.z_near));
-    return clipped(body, Vec4<T>(-z, view.z_far + slack_metres));
+    T const reach = flat ? farthest + sides : farthest * (T(1) + sides);
+    if (!((x <= most) & (y <= most) & (z <= most) & (sides <= most) & (reach <= most))) return false;
+    BeyondReach<T> infinite;
+    Lanes lo, hi;
+    if constexpr (sizeof scene == 6 * sizeof(T)) {
+        lo = four_at(&scene.lo.x);
+        hi = moved_up(four_at(&scene.lo.z), T(0));
+    } else {
+        lo = Lanes::of(scene.lo.x, scene.lo.y, scene.lo.z, T(0));
+        hi = Lanes::of(scene.hi.x, scene.hi.y, scene.hi.z, T(0));
+    }
+    infinite.look_for_finite(lo);
+    infinite.look_for_finite(hi);
+    if (infinite.any() || is_empty(scene)) return false;
+    auto const size_of = [](Vec3<T> const& v) { return absolute(Lanes::of(v.x, v.y, v.z, T(0))); };
+    Lanes const axes = size_of(view.pose.right) + size_of(view.pose.up) + size_of(view.pose.forward) +
+                       (absolute(seen.lit.x) + absolute(seen.lit.y) + absolute(seen.lit.z));
+    if (!(axes[0] + axes[1] + axes[2] <= T(12))) return false;  // six unit vectors sum up to less
+    seen.slack = T(16) * std::numeric_limits<T>::epsilon() * (reach + (x + y + z));
+    Lanes const of_side = four_at(&view.left), slack = all_four(seen.slack);
+    Lanes const outward = Lanes::of(-seen.slack, seen.slack, -seen.slack, seen.slack);
+    if (flat) {
+        seen.slope = all_four(T(0));
+        seen.offset = of_side + outward;
+    } else {
+        seen.slope = of_side;
+        // A plane that leans is moved farther along its side than outward.
+        seen.offset = outward * (all_four(T(1)) + absolute(of_side));
+    }
+    // Nothing of the view is farther from the eye along any axis than twice its reach.
+    T const limit = T(2) * reach;
+    auto const limited = [limit](Lanes const& at) { return largest(least(at, all_four(limit)), all_four(-limit)); };
+    Lanes const at_eye = Lanes::of(eye.x, eye.y, eye.z, T(0));
+    seen.lo = limited(lo - at_eye - slack);
+    seen.hi = limited(hi - at_eye + slack);
+    return true;
 }
 
+// The twelve edges of the box, four to an axis, from its lower face on; and four more that mean nothing. An edge is
+// inside the sides of the view from `first` to `last` metres behind its origin. (x, y, z): origin in light space;
+// ahead: metres along the edge that its depth in the view amounts to.
+template <class T>
+struct EdgesOfBox {
+    T first[16], last[16], ahead[16], x[16], y[16], z[16];
+    Lanes<T> per_ahead;  // of each axis: metres along it for one of depth
+};
+
+// Where an axis has its four edges: at the lower (0) or the upper (1) end of the others.
+template <class T>
+inline constexpr T edge_at[3][16] = {{0, 0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0},
+                                     {0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0},
+                                     {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0}};
+
+template <int i>
+struct Place {
+    static constexpr int value = i;
+};
+
+// Lane i everywhere.
+template <int i, class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> all_of(Lanes<T> const& four) noexcept {
+    return picked<i, i, i, i>(four);
+}
+template <int i, class T>
+[[nodiscard, gnu::always_inline]] inline LongLanes<T> long_of(Lanes<T> const& four) noexcept {
+    return repeated<LongLanes<T>>(all_of<i>(four));
+}
+
+template <class T>
+[[gnu::always_inline]] inline void cut_box_edges(ViewOfBox<T> const& seen, EdgesOfBox<T>& edges) noexcept {
+    using Long = LongLanes<T>;
+    using Lanes = Lanes<T>;
+    auto const four = [](Vec3<T> const& v) { return Lanes::of(v.x, v.y, v.z, T(0)); };
+    // By how much each axis goes inward through each side, metres a metre.
+    Lanes const right = four(seen.pose->right), up = four(seen.pose->up), ahead = four(seen.pose->forward);
+    Lanes const inward[4] = {right - ahead * all_of<0>(seen.slope), ahead * all_of<1>(seen.slope) - right,
+                             up - ahead * all_of<2>(seen.slope), ahead * all_of<3>(seen.slope) - up};
+    // An edge enters where it goes inward, and leaves where not: what it does not do is moved out of the way.
+    constexpr T away = T(1e38);
+    Lanes inverse[4], not_entered[4], not_left[4];
+    for (int i = 0; i < 4; ++i) {
+        Lanes const in = not_zero(inward[i]);
+        inverse[i] = all_four(T(-1)) / in;
+        not_entered[i] = where_at_most(in, all_four(T(0)), all_four(-away), all_four(T(0)));
+        not_left[i] = not_entered[i] + all_four(away);
+    }
+    Lanes const length = seen.hi - seen.lo;
+    Long const lo_x = long_of<0>(seen.lo), lo_y = long_of<1>(seen.lo), lo_z = long_of<2>(seen.lo);
+    Long const hi_x = long_of<0>(seen.hi), hi_y = long_of<1>(seen.hi), hi_z = long_of<2>(seen.hi);
+    edges.per_ahead = all_four(T(1)) / not_zero(ahead);
+    for (int axis = 0; axis < 3; axis += Long::fours) {
+        auto const end = [&](int i, Long const& lo, Long const& hi) {
+            return where_at_most(long_at<Long>(edge_at<T>[i] + 4 * axis), Long::all(T(0)), lo, hi);
+        };
+        Long const x = end(0, lo_x, hi_x), y = end(1, lo_y, hi_y), z = end(2, lo_z, hi_z);
+        auto const along = [&](Lanes const& v) { return x * long_of<0>(v) + y * long_of<1>(v) + z * long_of<2>(v); };
+        Long const inside[4] = {along(inward[0]) - long_of<0>(seen.offset), along(inward[1]) + long_of<1>(seen.offset),
+                                along(inward[2]) - long_of<2>(seen.offset), along(inward[3]) + long_of<3>(seen.offset)};
+        Long first = Long::all(T(0)), last = spread<Long>(length, axis);
+        auto const cut = [&](int i) {
+            Long const root = inside[i] * spread<Long>(inverse[i], axis);
+            first = largest(first, root + spread<Long>(not_entered[i], axis));
+            last = least(last, root + spread<Long>(not_left[i], axis));
+        };
+        cut(0), cut(1), cut(2), cut(3);
+        auto const store = [axis](T* to, Long const& lanes) { std::memcpy(to + 4 * axis, &lanes, sizeof lanes); };
+        auto const lit = [&](auto place) {
+            constexpr int i = decltype(place)::value;
+            return x * long_of<i>(seen.lit.x) + y * long_of<i>(seen.lit.y) + z * long_of<i>(seen.lit.z);
+        };
+        store(edges.first, first);
+        store(edges.last, last);
+        store(edges.ahead, along(ahead) * spread<Long>(edges.per_ahead, axis));
+        store(edges.x, lit(Place<0>()));
+        store(edges.y, lit(Place<1>()));
+        store(edges.z, lit(Place<2>()));
+    }
+}
+
+// Least and largest coordinates of four edges in each of four slices.
+template <class T>
+struct ExtentsOfSlices {
+    T lo[3][16], hi[3][16];
+};
+
+// All edges of four slices and the box, from plane[0] to plane[4].
+template <class T>
+struct EdgesInLight {
+    using Four = Lanes<T>;
+    using Long = LongLanes<T>;
+
+    Four nearest, farthest;  // planes of each slice
+    Four begins, ends;       // and a little farther apart
+    EdgesOfBox<T> of_box;
+    HalfStep<Long> along[3];  // its axes
+    Four enter[3], leave[3];  // where the slices begin and end along them, had their edges no depth of their own
+    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top). Rays through them from depth 0.
+    LongVectors<T> from, ray;
+    HalfStep<Long> along_ray;
+    Long first_of_ray, last_of_ray;
+    // Sides of a split plane, from corner to corner: right, up, left, down; `length` metres at depth 0, `growth` more
+    // for every metre of depth, and their origins `shift` farther along them.
+    HalfStep<Long> along_side;
+    Passage<Long> side_in_x, side_in_y, side_in_z;
+    LongVectors<T> shift;
+    Long growth, length;
+
+    [[gnu::always_inline]] EdgesInLight(ViewOfBox<T> const& seen, T const* plane) noexcept {
+        auto const all = [](T value) { return all_four(value); };
+        auto const lit = [](Four const& v) { return FourVectors<T>{all_of<0>(v), all_of<1>(v), all_of<2>(v)}; };
+        Vec3<T> const &right = seen.pose->right, &up = seen.pose->up, &ahead = seen.pose->forward;
+        // NOTE: one by one, as they have mostly just been written.
+        nearest = Four::of(plane[0], plane[1], plane[2], plane[3]), farthest = moved_up(nearest, plane[4]);
+        begins = nearest - all(seen.slack), ends = farthest + all(seen.slack);
+        cut_box_edges(seen, of_box);
+        along[0] = half_of<T>(lit(seen.lit.x)), along[1] = half_of<T>(lit(seen.lit.y));
+        along[2] = half_of<T>(lit(seen.lit.z));
+        for (int axis = 0; axis < 3; ++axis) {
+            Four const per_ahead = all(of_box.per_ahead[axis]), a = begins * per_ahead, b = ends * per_ahead;
+            enter[axis] = least(a, b), leave[axis] = largest(a, b);
+        }
+        Four const x_slope = picked<0, 1, 1, 0>(seen.slope), y_slope = picked<2, 2, 3, 3>(seen.slope);
+        Four const x_offset = picked<0, 1, 1, 0>(seen.offset), y_offset = picked<2, 2, 3, 3>(seen.offset);
+        FourVectors<T> const right_lit = lit(seen.lit.right), up_lit = lit(seen.lit.up);
+        FourVectors<T> const corner = times(x_offset, right) + times(y_offset, up);
+        FourVectors<T> const outward = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
+        FourVectors<T> const outward_lit = right_lit * x_slope + up_lit * y_slope + lit(seen.lit.forward);
+        from = repeated<T>(right_lit * x_offset + up_lit * y_offset), ray = repeated<T>(outward_lit);
+        along_ray = half_of<T>(outward_lit);
+        FourVectors<T> const lo = lit(seen.lo), hi = lit(seen.hi);
+        Four const one = all(T(1));
+        Passage<Four> const x = passage(lo.x, hi.x, corner.x, one / not_zero(outward.x));
+        Passage<Four> const y = passage(lo.y, hi.y, corner.y, one / not_zero(outward.y));
+        Passage<Four> const z = passage(lo.z, hi.z, corner.z, one / not_zero(outward.z));
+        first_of_ray = repeated<Long>(largest(x.enter, largest(y.enter, z.enter)));
+        last_of_ray = repeated<Long>(least(x.leave, least(y.leave, z.leave)));
+        Four const sideways = Four::of(T(1), T(0), T(-1), T(0)), upward = Four::of(T(0), T(1), T(0), T(-1));
+        FourVectors<T> const side = times(sideways, right) + times(upward, up);
+        along_side = half_of<T>(right_lit * sideways + up_lit * upward);
+        Four const per_x = one / not_zero(side.x), per_y = one / not_zero(side.y), per_z = one / not_zero(side.z);
+        auto const sides = [](Passage<Four> const& p) {
+            return Passage<Long>{repeated<Long>(p.enter), repeated<Long>(p.leave)};
+        };
+        side_in_x = sides(passage(lo.x, hi.x, corner.x, per_x)),
+        side_in_y = sides(passage(lo.y, hi.y, corner.y, per_y));
+        side_in_z = sides(passage(lo.z, hi.z, corner.z, per_z));
+        shift = repeated<T>(FourVectors<T>{outward.x * per_x, outward.y * per_y, outward.z * per_z});
+        auto const apart = [](Four const& of) { return picked<1, 3, 1, 3>(of) - picked<0, 2, 0, 2>(of); };
+        growth = repeated<Long>(apart(seen.slope)), length = repeated<Long>(apart(seen.offset));
+    }
+
+    // Planes are where they are: the box that their sides are cut by is larger.
+    [[nodiscard, gnu::always_inline]] ExtentInLanes<Long> of_sides(Long const& depth) const noexcept {
+        Long first = Long::all(T(0)), last = growth * depth + length;
+        side_in_x.cut(shift.x * depth, first, last);
+        side_in_y.cut(shift.y * depth, first, last);
+        side_in_z.cut(shift.z * depth, first, last);
+        return extent_of(from + ray * depth, along_side, first, last);
+    }
+
+    // For slices from i on; the far plane of one is the near plane of the next.
+    [[gnu::always_inline]] void bound(int i, ExtentInLanes<Long>& sides, ExtentsOfSlices<T>& of) const noexcept {
+        ExtentInLanes<Long> extent = sides;
+        if (Long::fours > 1) extent = of_sides(spread<Long>(nearest, i));
+        sides = of_sides(spread<Long>(farthest, i));
+        extent.add(sides);
+        extent.add(extent_of(from, along_ray, largest(first_of_ray, spread<Long>(begins, i)),
+                             least(last_of_ray, spread<Long>(ends, i))));
+        auto const add_edges = [&](int axis) {
+            auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
+            Long const ahead = at(of_box.ahead);
+            Long const first = largest(at(of_box.first), spread<Long>(enter[axis], i) - ahead);
+            Long const last = least(at(of_box.last), spread<Long>(leave[axis], i) - ahead);
+            extent.add(extent_of({at(of_box.x), at(of_box.y), at(of_box.z)}, along[axis], first, last));
+        };
+        add_edges(0), add_edges(1), add_edges(2);
+        auto const store = [i](T* to, Long const& lanes) { std::memcpy(to + 4 * i, &lanes, sizeof lanes); };
+        store(of.lo[0], extent.lo.x), store(of.lo[1], extent.lo.y), store(of.lo[2], extent.lo.z);
+        store(of.hi[0], extent.hi.x), store(of.hi[1], extent.hi.y), store(of.hi[2], extent.hi.z);
+    }
+};
+
+template <class T>
+[[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, T const* plane,
+                                                     ExtentsOfSlices<T>& of) noexcept {
+    using Long = LongLanes<T>;
+    EdgesInLight<T> const edges(seen, plane);
+    ExtentInLanes<Long> sides = edges.of_sides(Long::all(plane[0]));
+    // NOTE: no loop: compilers would keep what it needs in registers that they have not.
+    edges.bound(0, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(1, sides, of);
+    if constexpr (Long::fours <= 2) edges.bound(2, sides, of);
+    if constexpr (Long::fours == 1) edges.bound(3, sides, of);
+}
+
+}  // namespace detail
 }  // namespace v0
 }  // namespace shadowmath
 
@@ -2123,275 +2499,41 @@ inline void run_widely(Loop const& loop) noexcept {
 // All slices of a view at once, each cut down to the scene: for worlds that end before the view does, and to fit maps
 // to a room. What visible_body gives for each slice, bounded along the axes of the light, a hundred times as fast.
 //
-// The corners of what a slice and a box have in common are where edges of one end, inside the other, or pass through
-// its faces. So nothing but edges is clipped, each once for all slices, four at a time:
-//
-//   four corner rays of the view     to the box, then to the depths of every slice
-//   four sides of each split plane   to the box; they belong to the slices on either side
-//   twelve edges of the box          to the four sides of the view, then to the depths of every slice
-//
-// Source: ours. Edges instead of faces, as in polytope.hpp, but none is ever new.
+// Source: ours; slice_edges.hpp says how.
 
 namespace shadowmath {
 inline namespace v0 {
 namespace detail {
 
-// Four vectors at a time.
-template <class T>
-struct FourVectors {
-    Lanes<T> x, y, z;
-
-    [[gnu::always_inline]] friend FourVectors operator+(FourVectors const& a, FourVectors const& b) noexcept {
-        return {a.x + b.x, a.y + b.y, a.z + b.z};
-    }
-    [[gnu::always_inline]] friend FourVectors operator*(FourVectors const& a, Lanes<T> const& s) noexcept {
-        return {a.x * s, a.y * s, a.z * s};
-    }
-    [[gnu::always_inline]] friend FourVectors least(FourVectors const& a, FourVectors const& b) noexcept {
-        return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
-    }
-    [[gnu::always_inline]] friend FourVectors largest(FourVectors const& a, FourVectors const& b) noexcept {
-        return {largest(a.x, b.x), largest(a.y, b.y), largest(a.z, b.z)};
-    }
-};
-
-// Multiples of one vector.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline FourVectors<T> times(Lanes<T> const& s, Vec3<T> const& v) noexcept {
-    return {s * all_four(v.x), s * all_four(v.y), s * all_four(v.z)};
-}
-
-// Least and largest light-space coordinates of four edges at a time.
-template <class T>
-struct ExtentInLanes {
-    FourVectors<T> lo;
-    FourVectors<T> hi;
-
-    [[gnu::always_inline]] void add(ExtentInLanes const& other) noexcept {
-        lo = least(lo, other.lo);
-        hi = largest(hi, other.hi);
-    }
-};
-
-// What four edges, from `origin` on along `step`, reach between a and b. Where a > b an edge is none, and its extent is
-// inside out by more than anything can be long.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline ExtentInLanes<T> extent_of(FourVectors<T> const& origin,
-                                                                    FourVectors<T> const& step, Lanes<T> const& a,
-                                                                    Lanes<T> const& b) noexcept {
-    FourVectors<T> const p = origin + step * a, q = origin + step * b;
-    Lanes<T> const none = where_at_most(a, b, all_four(T(0)), all_four(T(1e30)));
-    FourVectors<T> const lo = least(p, q), hi = largest(p, q);
-    return {{lo.x + none, lo.y + none, lo.z + none}, {hi.x - none, hi.y - none, hi.z - none}};
-}
-
-// The part of [first, last] for which from + that / inverse lies in [lo, hi].
-template <class T>
-[[gnu::always_inline]] inline void keep_between(T lo, T hi, Lanes<T> const& from, Lanes<T> const& inverse,
-                                                Lanes<T>& first, Lanes<T>& last) noexcept {
-    Lanes<T> const a = (all_four(lo) - from) * inverse, b = (all_four(hi) - from) * inverse;
-    first = largest(first, least(a, b));
-    last = least(last, largest(a, b));
-}
-
-// Nothing is divided by less than this; what it stands for is the same to far less than a rounding.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
-    Lanes<T> const tiny = all_four(T(1e-20));
-    return where_at_most(tiny, largest(value, all_four(T(0)) - value), value, tiny);
-}
-template <class T>
-[[nodiscard, gnu::always_inline]] inline T not_zero(T value) noexcept {
-    return value > T(1e-20) || value < T(-1e-20) ? value : T(1e-20);
-}
-
-// A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
-// at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
-template <class T>
-struct ViewOfBox {
-    Pose<T> pose;
-    T slope[4];
-    T offset[4];
-    Vec3<T> lo;
-    Vec3<T> hi;
-    T slack;
-};
-
-// False where the numbers are none that products of three can be made of, or nothing is there.
-template <class T>
-[[nodiscard]] inline bool look_at_box(ViewVolume<T> const& view, LightBasis<T> const& basis, T farthest,
-                                      Aabb<T> const& scene, ViewOfBox<T>& seen) noexcept {
-    constexpr T most = T(1e12);
-    auto const bound = order_of(most);
-    auto const size = [](T value) { return order_of(std::abs(value)); };
-    T const sides = std::abs(view.left) + std::abs(view.right) + std::abs(view.bottom) + std::abs(view.top);
-    Vec3<T> const& eye = view.pose.position;
-    auto const far_end = order_of(farthest), widest = size(sides), x = size(eye.x), y = size(eye.y), z = size(eye.z);
-    bool const good = (far_end <= bound) & (widest <= bound) & (x <= bound) & (y <= bound) & (z <= bound);
-    if (!good || !all_finite(scene) || is_empty(scene)) return false;
-    T const axes = absolute_sum(view.pose.right) + absolute_sum(view.pose.up) + absolute_sum(view.pose.forward) +
-                   absolute_sum(basis.x) + absolute_sum(basis.y) + absolute_sum(basis.depth);
-    if (!(axes <= T(12))) return false;  // six unit vectors sum up to less
-    bool const flat = view.kind == ViewKind::orthographic;
-    T const reach = flat ? farthest + sides : farthest * (T(1) + sides);
-    if (!(reach <= most)) return false;
-    seen.pose = view.pose;
-    seen.slack = T(16) * std::numeric_limits<T>::epsilon() * (reach + absolute_sum(eye));
-    T const of_side[4] = {view.left, view.right, view.bottom, view.top};
-    for (int i = 0; i < 4; ++i) {
-        T const outward = (i & 1) != 0 ? seen.slack : -seen.slack;
-        seen.slope[i] = flat ? T(0) : of_side[i];
-        // A plane that leans is moved farther along its side than outward.
-        seen.offset[i] = flat ? of_side[i] + outward : outward * (T(1) + std::abs(of_side[i]));
-    }
-    // Nothing of the view is farther from the eye along any axis than twice its reach.
-    T const limit = T(2) * reach;
-    auto const limited = [limit](T value) { return value < -limit ? -limit : (value > limit ? limit : value); };
-    Vec3<T> const lo = scene.lo - eye, hi = scene.hi - eye;
-    seen.lo = Vec3<T>(limited(lo.x - seen.slack), limited(lo.y - seen.slack), limited(lo.z - seen.slack));
-    seen.hi = Vec3<T>(limited(hi.x + seen.slack), limited(hi.y + seen.slack), limited(hi.z + seen.slack));
-    return true;
-}
-
-template <class T>
-using FourExtents = ExtentInLanes<T>[4];
-
-// A vector along the axes of the light.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline Vec3<T> turned(LightBasis<T> const& basis, Vec3<T> const& v) noexcept {
-    return Vec3<T>(basis.x.x * v.x + basis.x.y * v.y + basis.x.z * v.z,
-                   basis.y.x * v.x + basis.y.y * v.y + basis.y.z * v.z,
-                   basis.depth.x * v.x + basis.depth.y * v.y + basis.depth.z * v.z);
-}
-
-// Edges of the box along one axis, from the four corners of its lower face. `of_u`, `of_v` and `of_axis` are what a
-// metre along the other two axes and this one is along the view's (right, up, forward) and along the light's.
-template <class T>
-[[gnu::always_inline]] inline void bound_box_edges(ViewOfBox<T> const& seen, Lanes<T> const (&begin)[4],
-                                                   Lanes<T> const (&end)[4], Vec3<T> const (&in_view)[3],
-                                                   Vec3<T> const (&in_light)[3], T low, T high, Lanes<T> const& at_u,
-                                                   Lanes<T> const& at_v, FourExtents<T>& extent) noexcept {
-    auto const all = [](T value) { return all_four(value); };
-    FourVectors<T> const corner = times(at_u, in_view[1]) + times(at_v, in_view[2]) + times(all(low), in_view[0]);
-    Vec3<T> const& grow = in_view[0];
-    Lanes<T> first = all(T(0)), last = all(high - low);
-    auto const keep = [&first, &last](Lanes<T> const& inside, T growth) {
-        T const slope = not_zero(growth);
-        Lanes<T> const root = inside * all_four(T(-1) / slope);
-        if (slope > T(0))
-            first = largest(first, root);
-        else
-            last = least(last, root);
-    };
-    keep(corner.x - corner.z * all(seen.slope[0]) - all(seen.offset[0]), grow.x - grow.z * seen.slope[0]);
-    keep(corner.z * all(seen.slope[1]) + all(seen.offset[1]) - corner.x, grow.z * seen.slope[1] - grow.x);
-    keep(corner.y - corner.z * all(seen.slope[2]) - all(seen.offset[2]), grow.y - grow.z * seen.slope[2]);
-    keep(corner.z * all(seen.slope[3]) + all(seen.offset[3]) - corner.y, grow.z * seen.slope[3] - grow.y);
-    FourVectors<T> const origin = times(at_u, in_light[1]) + times(at_v, in_light[2]) + times(all(low), in_light[0]);
-    FourVectors<T> const step = {all(in_light[0].x), all(in_light[0].y), all(in_light[0].z)};
-    Lanes<T> const per_depth = all(T(1) / not_zero(grow.z));
-    for (int slice = 0; slice < 4; ++slice) {
-        Lanes<T> const a = (begin[slice] - corner.z) * per_depth, b = (end[slice] - corner.z) * per_depth;
-        extent[slice].add(extent_of(origin, step, largest(first, least(a, b)), least(last, largest(a, b))));
-    }
-}
-
-// Four slices, from plane[0] to plane[4].
-template <class T>
-[[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, LightBasis<T> const& basis,
-                                                     T const* plane, FourExtents<T>& extent) noexcept {
-    using Lanes = Lanes<T>;
-    using Vectors = FourVectors<T>;
-    auto const all = [](T value) { return all_four(value); };
-    Vec3<T> const &right = seen.pose.right, &up = seen.pose.up, &ahead = seen.pose.forward, &lo = seen.lo,
-                  &hi = seen.hi;
-    Lanes const slack = all(seen.slack);
-    Lanes const planes[5] = {all(plane[0]), all(plane[1]), all(plane[2]), all(plane[3]), all(plane[4])};
-    Lanes const begin[4] = {planes[0] - slack, planes[1] - slack, planes[2] - slack, planes[3] - slack};
-    Lanes const end[4] = {planes[1] + slack, planes[2] + slack, planes[3] + slack, planes[4] + slack};
-    // Corners of the view: (left, bottom), (right, bottom), (right, top), (left, top).
-    Lanes const x_slope = Lanes::of(seen.slope[0], seen.slope[1], seen.slope[1], seen.slope[0]);
-    Lanes const y_slope = Lanes::of(seen.slope[2], seen.slope[2], seen.slope[3], seen.slope[3]);
-    Lanes const x_offset = Lanes::of(seen.offset[0], seen.offset[1], seen.offset[1], seen.offset[0]);
-    Lanes const y_offset = Lanes::of(seen.offset[2], seen.offset[2], seen.offset[3], seen.offset[3]);
-    Vec3<T> const right_lit = turned(basis, right), up_lit = turned(basis, up), ahead_lit = turned(basis, ahead);
-    Vectors const from = times(x_offset, right) + times(y_offset, up);
-    Vectors const ray = times(x_slope, right) + times(y_slope, up) + times(all(T(1)), ahead);
-    Vectors const from_lit = times(x_offset, right_lit) + times(y_offset, up_lit);
-    Vectors const ray_lit = times(x_slope, right_lit) + times(y_slope, up_lit) + times(all(T(1)), ahead_lit);
-    {
-        Lanes first = begin[0], last = end[3];
-        keep_between(lo.x, hi.x, from.x, all(T(1)) / not_zero(ray.x), first, last);
-        keep_between(lo.y, hi.y, from.y, all(T(1)) / not_zero(ray.y), first, last);
-        keep_between(lo.z, hi.z, from.z, all(T(1)) / not_zero(ray.z), first, last);
-        for (int slice = 0; slice < 4; ++slice)
-            extent[slice] = extent_of(from_lit, ray_lit, largest(first, begin[slice]), least(last, end[slice]));
-    }
-    // Sides of the split planes, from corner to corner: right, up, left, down. Planes are where they are: the box that
-    // these edges are cut by is larger.
-    Lanes const sideways = Lanes::of(T(1), T(0), T(-1), T(0)), upward = Lanes::of(T(0), T(1), T(0), T(-1));
-    Vectors const side = times(sideways, right) + times(upward, up),
-                  side_lit = times(sideways, right_lit) + times(upward, up_lit);
-    Lanes const one = all(T(1));
-    Vectors const per_side = {one / not_zero(side.x), one / not_zero(side.y), one / not_zero(side.z)};
-    T const wider = seen.slope[1] - seen.slope[0], taller = seen.slope[3] - seen.slope[2];
-    T const width = seen.offset[1] - seen.offset[0], height = seen.offset[3] - seen.offset[2];
-    Lanes const growth = Lanes::of(wider, taller, wider, taller), length = Lanes::of(width, height, width, height);
-    for (int i = 0; i < 5; ++i) {
-        Lanes const z = planes[i];
-        Lanes first = all(T(0)), last = growth * z + length;
-        Vectors const corner = from + ray * z;
-        keep_between(lo.x, hi.x, corner.x, per_side.x, first, last);
-        keep_between(lo.y, hi.y, corner.y, per_side.y, first, last);
-        keep_between(lo.z, hi.z, corner.z, per_side.z, first, last);
-        ExtentInLanes<T> const of_plane = extent_of(from_lit + ray_lit * z, side_lit, first, last);
-        if (i > 0) extent[i - 1].add(of_plane);
-        if (i < 4) extent[i].add(of_plane);
-    }
-    Vec3<T> const view_x(right.x, up.x, ahead.x), view_y(right.y, up.y, ahead.y), view_z(right.z, up.z, ahead.z);
-    Vec3<T> const lit_x(basis.x.x, basis.y.x, basis.depth.x), lit_y(basis.x.y, basis.y.y, basis.depth.y);
-    Vec3<T> const lit_z(basis.x.z, basis.y.z, basis.depth.z);
-    Lanes const x_as_u = Lanes::of(lo.x, hi.x, lo.x, hi.x), y_as_u = Lanes::of(lo.y, hi.y, lo.y, hi.y);
-    Lanes const y_as_v = Lanes::of(lo.y, lo.y, hi.y, hi.y), z_as_v = Lanes::of(lo.z, lo.z, hi.z, hi.z);
-    bound_box_edges(seen, begin, end, {view_x, view_y, view_z}, {lit_x, lit_y, lit_z}, lo.x, hi.x, y_as_u, z_as_v,
-                    extent);
-    bound_box_edges(seen, begin, end, {view_y, view_x, view_z}, {lit_y, lit_x, lit_z}, lo.y, hi.y, x_as_u, z_as_v,
-                    extent);
-    bound_box_edges(seen, begin, end, {view_z, view_x, view_y}, {lit_z, lit_x, lit_y}, lo.z, hi.z, x_as_u, y_as_v,
-                    extent);
-}
-
-// The same, with a slice to a lane: light-space boxes, from the world's origin.
+// bound_four_slices with a slice to a lane: light-space boxes, from the world's origin.
 template <class T>
 struct FourSlices {
     ViewOfBox<T> const& seen;
-    LightBasis<T> const& basis;
     T const* plane;
     FourVectors<T>& lo;
     FourVectors<T>& hi;
 
-    [[gnu::always_inline]] static Lanes<T> least_of(Lanes<T> a, Lanes<T> b, Lanes<T> c, Lanes<T> d) noexcept {
-        Lanes<T> rows[4] = {a, b, c, d};
-        transpose(rows);
-        return least(least(rows[0], rows[1]), least(rows[2], rows[3]));
-    }
-    [[gnu::always_inline]] static Lanes<T> largest_of(Lanes<T> a, Lanes<T> b, Lanes<T> c, Lanes<T> d) noexcept {
-        Lanes<T> rows[4] = {a, b, c, d};
-        transpose(rows);
-        return largest(largest(rows[0], rows[1]), largest(rows[2], rows[3]));
+    // For each slice, what is left of its four edges.
+    template <class Fold>
+    [[gnu::always_inline]] static Lanes<T> folded(T const (&edges)[16], Fold const& fold) noexcept {
+        Lanes<T> const a = four_at(edges), b = four_at(edges + 4), c = four_at(edges + 8), d = four_at(edges + 12);
+        Lanes<T> const of_ab = fold(picked<0, 4, 1, 5>(a, b), picked<2, 6, 3, 7>(a, b));
+        Lanes<T> const of_cd = fold(picked<0, 4, 1, 5>(c, d), picked<2, 6, 3, 7>(c, d));
+        return fold(picked<0, 1, 4, 5>(of_ab, of_cd), picked<2, 3, 6, 7>(of_ab, of_cd));
     }
     [[gnu::always_inline]] void operator()() const noexcept {
-        FourExtents<T> of;
-        bound_four_slices(seen, basis, plane, of);
-        Vec3<T> const eye = turned(basis, seen.pose.position);
-        T const slack = seen.slack;
+        auto const smaller = [](Lanes<T> const& a, Lanes<T> const& b) { return least(a, b); };
+        auto const larger = [](Lanes<T> const& a, Lanes<T> const& b) { return largest(a, b); };
+        ExtentsOfSlices<T> of;
+        bound_four_slices(seen, plane, of);
         // Where there is nothing, these are numbers that no eye and no slack can move.
-        lo.x = least_of(of[0].lo.x, of[1].lo.x, of[2].lo.x, of[3].lo.x) + all_four(eye.x - slack);
-        lo.y = least_of(of[0].lo.y, of[1].lo.y, of[2].lo.y, of[3].lo.y) + all_four(eye.y - slack);
-        lo.z = least_of(of[0].lo.z, of[1].lo.z, of[2].lo.z, of[3].lo.z) + all_four(eye.z - slack);
-        hi.x = largest_of(of[0].hi.x, of[1].hi.x, of[2].hi.x, of[3].hi.x) + all_four(eye.x + slack);
-        hi.y = largest_of(of[0].hi.y, of[1].hi.y, of[2].hi.y, of[3].hi.y) + all_four(eye.y + slack);
-        hi.z = largest_of(of[0].hi.z, of[1].hi.z, of[2].hi.z, of[3].hi.z) + all_four(eye.z + slack);
+        Lanes<T> const least_eye = seen.lit.eye - all_four(seen.slack), most_eye = seen.lit.eye + all_four(seen.slack);
+        lo.x = folded(of.lo[0], smaller) + all_of<0>(least_eye);
+        lo.y = folded(of.lo[1], smaller) + all_of<1>(least_eye);
+        lo.z = folded(of.lo[2], smaller) + all_of<2>(least_eye);
+        hi.x = folded(of.hi[0], larger) + all_of<0>(most_eye);
+        hi.y = folded(of.hi[1], larger) + all_of<1>(most_eye);
+        hi.z = folded(of.hi[2], larger) + all_of<2>(most_eye);
     }
 };
 
@@ -2400,10 +2542,10 @@ template <class T, class Visit>
 [[gnu::always_inline]] inline bool visit_slices_in_scene(ViewVolume<T> const& view, LightBasis<T> const& basis,
                                                          Splits<T> const& splits, Aabb<T> const& scene,
                                                          Visit const& visit) noexcept {
-    ViewInLight<T> checked;
     ViewOfBox<T> seen;
-    if (!look(basis, view, checked) || !in_range(splits) ||
-        !look_at_box(view, basis, splits.plane[splits.count], scene, seen))
+    seen.pose = &view.pose;
+    if (!look(basis, view, seen.lit) || !in_range(splits) ||
+        !look_at_box(view, splits.plane[splits.count], scene, seen))
         return false;
     for (int first = 0; first < splits.count; first += 4) {
         int const left = splits.count - first < 4 ? splits.count - first : 4;
@@ -2414,7 +2556,7 @@ template <class T, class Visit>
             plane = padded;
         }
         FourVectors<T> lo, hi;
-        run_widely(FourSlices<T>{seen, basis, plane, lo, hi});
+        run_widely(FourSlices<T>{seen, plane, lo, hi});
         visit(first, left, lo, hi);
     }
     return true;
@@ -2463,7 +2605,7 @@ template <class T>
         detail::transpose(scale);
         detail::transpose(moved);
         for (int i = 0; i < count; ++i) {
-            if (!(lo.x[i] <= hi.x[i] && lo.y[i] <= hi.y[i] && lo.z[i] <= hi.z[i])) {
+            if (!(lo.x[i] <= hi.x[i])) {  // nothing is nothing on every axis
                 clip_from_world[first + i] = nowhere<T>();
                 continue;
             }
@@ -2730,7 +2872,10 @@ template <class T>
     Mat4<T> const canonical =
         from_rows(axis(box.basis.x, box.lo.x, box.hi.x), axis(box.basis.y, box.lo.y, box.hi.y),
                   Vec4<T>(box.basis.depth * depth_scale, -box.depth_lo * depth_scale), Vec4<T>(T(0), T(0), T(0), T(1)));
-    return all_finite(canonical) ? clip_from_canonical<T>(clip) * canonical : nowhere<T>();
+    if (!all_finite(canonical)) return nowhere<T>();
+    // Where depth runs from -1 to 1, or the other way, the largest numbers of a float are not enough.
+    Mat4<T> const map = clip_from_canonical<T>(clip) * canonical;
+    return all_finite(map) ? map : nowhere<T>();
 }
 
 // The same map for points given relative to `origin` (a camera-relative renderer): M * translate(origin). Compute it in
@@ -2829,9 +2974,9 @@ template <class T>
 //     |  slice  |              pancake: lo is the first receiver instead. The renderer must turn depth clamp on
 //     |_________|   <- hi      (GL_DEPTH_CLAMP, depthClampEnable): casters above lo are then drawn flat at depth 0.
 //
-// Source: clipping the scene's box against the map's four sides is that of Microsoft's "Common techniques to improve
-// shadow depth maps". Departures: polygons for triangles, and boxes without an end are cut before they are computed
-// with.
+// Source: cutting the scene's box by the map's four sides is that of Microsoft's "Common techniques to improve shadow
+// depth maps". Departures: edges for triangles, four at a time, and boxes without an end are cut before they are
+// computed with.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -2845,28 +2990,6 @@ struct DepthRange {
 
 namespace detail {
 
-// A quadrilateral and what cutting by six planes can add: a corner each.
-template <class T>
-struct Polygon {
-    Vec3<T> at[10];
-    int count = 0;
-};
-
-// What is left where plane.xyz * p + plane.w >= 0; Sutherland and Hodgman 1974.
-template <class T>
-[[nodiscard]] inline Polygon<T> clipped(Polygon<T> const& whole, Vec4<T> const& plane) noexcept {
-    Polygon<T> part;
-    for (int i = 0; i < whole.count; ++i) {
-        Vec3<T> const &a = whole.at[i], &b = whole.at[i + 1 < whole.count ? i + 1 : 0];
-        T const above_a = glm::dot(Vec3<T>(plane), a) + plane.w, above_b = glm::dot(Vec3<T>(plane), b) + plane.w;
-        // NOTE: rounding can make a convex polygon cross a plane more than twice; the spare corners are dropped.
-        if (above_a >= T(0) && part.count < 10) part.at[part.count++] = a;
-        if ((above_a >= T(0)) != (above_b >= T(0)) && part.count < 10)
-            part.at[part.count++] = a + (b - a) * (above_a / (above_a - above_b));
-    }
-    return part;
-}
-
 // The six sides as planes whose positive half is inside.
 template <class T>
 [[nodiscard]] inline std::array<Vec4<T>, 6> inner_planes(ViewVolume<T> const& view) noexcept {
@@ -2879,49 +3002,113 @@ template <class T>
             view.top * spread - y,  depth - view.z_near * one, view.z_far * one - depth};
 }
 
+// Least and greatest depth of edges, four at a time.
+template <class T>
+struct DepthsOfEdges {
+    Lanes<T> lo, hi;
+
+    // From depth a to depth b, where first <= last.
+    [[gnu::always_inline]] void add(Lanes<T> const& a, Lanes<T> const& b, Lanes<T> const& first,
+                                    Lanes<T> const& last) noexcept {
+        lo = least(lo, where_at_most(first, last, least(a, b), lo));
+        hi = largest(hi, where_at_most(first, last, largest(a, b), hi));
+    }
+};
+
+// What is divided by: nothing that an edge is long is met along less.
+template <class T>
+[[nodiscard]] inline T divisor(T value) noexcept {
+    constexpr T tiny = T(1e-6) * std::numeric_limits<T>::epsilon();
+    return std::abs(value) >= tiny ? value : tiny;
+}
+
 }  // namespace detail
 
 // Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
 // box will do, however large; the volume must be finite. Not visible where they do not meet.
 //
-// The least and the greatest depth of the common part are at its corners, and those are corners of the volume inside
-// the box, or lie on the box's faces.
+// The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
+// enter and leave, or where the corner edges of the sides enter and leave the box. What lies between them is one piece:
+// near and far end only cut it off.
 template <class T>
 [[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
+    using Lanes = detail::Lanes<T>;
     if (!all_finite(box) || is_empty(box)) return {};
-    std::array<Vec3<T>, 8> const volume_corners = corners(volume);
+    auto const all = [](T value) { return Lanes::all(value); };
     constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
-    Aabb<T> const around = merge(bounds_of(volume_corners), volume.pose.position);
+    Pose<T> const& pose = volume.pose;
+    Aabb<T> const around = merge(bounds_of(corners(volume)), pose.position);
     // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
     T const reach = slack * detail::largest_of(around);
     Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
     if (is_empty(body)) return {};
-    T const largest = detail::largest_of(merge(body, volume.pose.position)), rounding = slack * largest;
-    DepthRange<T> range{volume.z_far, volume.z_near, false};
-    auto const reaches = [&](Vec3<T> const& point) {
-        T const depth = eye_depth(volume, point);
-        range.lo = depth < range.lo ? depth : range.lo;
-        range.hi = depth > range.hi ? depth : range.hi;
-        range.visible = true;
-    };
-    for (Vec3<T> const& corner : volume_corners)
-        if (contains(body, corner)) reaches(corner);
+    T const size = detail::largest_of(merge(body, pose.position)), rounding = slack * size;
     std::array<Vec4<T>, 6> planes = detail::inner_planes(volume);
-    for (Vec4<T>& plane : planes)
-        plane.w += slack * ((std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z)) * largest + std::abs(plane.w));
-    std::array<Vec3<T>, 8> const at = corners(body);
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        std::size_t const u = std::size_t(1) << (axis + 1) % 3, v = std::size_t(1) << (axis + 2) % 3;
-        for (std::size_t const first : {std::size_t(0), std::size_t(1) << axis}) {
-            detail::Polygon<T> face{{at[first], at[first + u], at[first + u + v], at[first + v]}, 4};
-            for (Vec4<T> const& plane : planes) face = detail::clipped(face, plane);
-            for (int i = 0; i < face.count; ++i) reaches(face.at[i]);
-        }
+    T wider[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        Vec4<T>& plane = planes[i];
+        T const growth = std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z);
+        wider[i] = slack * (growth * size + std::abs(plane.w));
+        plane.w += wider[i];
     }
-    if (!range.visible) return {};
-    range.lo = std::fmax(range.lo - rounding, volume.z_near);
-    range.hi = std::fmin(range.hi + rounding, volume.z_far);
-    return range;
+    constexpr T none = std::numeric_limits<T>::max();
+    detail::DepthsOfEdges<T> depths{all(none), all(-none)};
+    // The twelve edges of the box, four to an axis: `u` and `v` are where they are on the other two.
+    for (int axis = 0; axis < 3; ++axis) {
+        int const next = (axis + 1) % 3, after = (axis + 2) % 3;
+        Lanes const u = Lanes::of(body.lo[next], body.hi[next], body.lo[next], body.hi[next]);
+        Lanes const v = Lanes::of(body.lo[after], body.lo[after], body.hi[after], body.hi[after]);
+        Lanes first = all(body.lo[axis]), last = all(body.hi[axis]);
+        for (std::size_t i = 0; i < 4; ++i) {
+            Vec4<T> const& plane = planes[i];
+            T const inward = detail::divisor(plane[axis]);
+            Lanes const root = (u * all(plane[next]) + v * all(plane[after]) + all(plane.w)) * all(T(-1) / inward);
+            // It enters where it goes inward, and leaves where not.
+            if (inward > T(0))
+                first = largest(first, least(root, all(none)));
+            else
+                last = least(last, largest(root, all(-none)));
+        }
+        Vec3<T> const &eye = pose.position, &ahead = pose.forward;
+        Lanes const at = (u - all(eye[next])) * all(ahead[next]) + (v - all(eye[after])) * all(ahead[after]);
+        auto const depth = [&](Lanes const& along) {
+            // NOTE: of edges that are none, any depth does, as long as it is a number.
+            Lanes const on_edge = least(largest(along, all(body.lo[axis])), all(body.hi[axis]));
+            return (on_edge - all(eye[axis])) * all(ahead[axis]) + at;
+        };
+        depths.add(depth(first), depth(last), first, last);
+    }
+    // The corner edges of the four sides: (left, bottom), (right, bottom), (right, top), (left, top).
+    bool const flat = volume.kind == ViewKind::orthographic;
+    Lanes const x = Lanes::of(volume.left, volume.right, volume.right, volume.left);
+    Lanes const y = Lanes::of(volume.bottom, volume.bottom, volume.top, volume.top);
+    Lanes const wider_x = Lanes::of(-wider[0], wider[1], wider[1], -wider[0]);
+    Lanes const wider_y = Lanes::of(-wider[2], -wider[2], wider[3], wider[3]);
+    // Those of a perspective begin at the eye.
+    Lanes first = all(flat ? -none : T(0)), last = all(none);
+    for (int axis = 0; axis < 3; ++axis) {
+        Lanes const across = all(pose.right[axis]), upward = all(pose.up[axis]), sideways = x * across + y * upward;
+        Lanes from = all(pose.position[axis]) + (wider_x * across + wider_y * upward), step = all(pose.forward[axis]);
+        if (flat)
+            from = from + sideways;
+        else
+            step = step + sideways;
+        Lanes const tiny = all(T(1e-6) * std::numeric_limits<T>::epsilon());
+        Lanes const inverse = all(T(1)) / where_at_most(tiny, absolute(step), step, tiny);
+        Lanes const a = (all(body.lo[axis] - rounding) - from) * inverse;
+        Lanes const b = (all(body.hi[axis] + rounding) - from) * inverse;
+        first = largest(first, least(a, b));
+        last = least(last, largest(a, b));
+    }
+    depths.add(first, last, first, last);
+    T lo = depths.lo[0], hi = depths.hi[0];
+    for (int i = 1; i < 4; ++i) {
+        lo = depths.lo[i] < lo ? depths.lo[i] : lo;
+        hi = depths.hi[i] > hi ? depths.hi[i] : hi;
+    }
+    if (!(lo <= hi)) return {};
+    DepthRange<T> const range{std::fmax(lo - rounding, volume.z_near), std::fmin(hi + rounding, volume.z_far), true};
+    return range.lo <= range.hi ? range : DepthRange<T>{};
 }
 
 // Between lo and hi lies every receiver inside the sides and the slice, and, unless `pancake`, every caster above it.
@@ -3187,13 +3374,16 @@ struct BoundsOfBoxes {
     // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
     enum class Kind { all_full, some_empty, beyond_reach };
 
+    // As much as all coordinates of a box together.
+    [[gnu::always_inline]] static T size_of(BoxArrays<T> const& at, int i) noexcept {
+        return std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) + std::abs(at.hi_y[i]) +
+               std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]);
+    }
     [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at,
                                                std::uint32_t (&taken)[bodies_at_once]) noexcept {
         decltype(beyond_reach(T(0))) beyond = 0;
         std::uint32_t all_taken = ~0u;
-        for (int i = 0; i < n; ++i)
-            beyond |= beyond_reach(std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) +
-                                   std::abs(at.hi_y[i]) + std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]));
+        for (int i = 0; i < n; ++i) beyond |= beyond_reach(size_of(at, i));
         if (beyond >> (8 * sizeof beyond - 1) != 0) return Kind::beyond_reach;
         for (int i = 0; i < n; ++i) {
             taken[i] = full(at, i) ? ~0u : 0u;
@@ -3245,8 +3435,58 @@ struct BoundsOfBoxes {
             bounds = merge(bounds, Aabb<T>{(merged.lo + offset) / matrix[3][3], (merged.hi + offset) / matrix[3][3]});
     }
 
+    // A side of what is known: a box does not reach beyond x / w = h where x - h w, which is linear, is negative at its
+    // farthest corner. No quotient is needed for that.
+    struct Side {
+        T x, y, z, offset;
+        T growth;               // by what the rounding of a quotient can make of it, for every metre of `size`
+        bool hi_x, hi_y, hi_z;  // where the farthest corner is
+    };
+    void take_sides(Aabb<T> const& known, Side (&sides)[6]) const noexcept {
+        auto const magnitude = [](Vec4<T> const& v) {
+            return glm::max(glm::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+        };
+        constexpr T unsure = T(16) * std::numeric_limits<T>::epsilon();
+        Vec4<T> const below = row(matrix, 3);
+        for (int i = 0; i < 6; ++i) {
+            Vec4<T> const above = row(matrix, i / 2);
+            T const h = i % 2 == 0 ? known.lo[i / 2] : known.hi[i / 2], further = std::abs(h);
+            Vec4<T> const beyond = (above - below * h) * (i % 2 == 0 ? T(-1) : T(1));
+            T const offset = beyond.w + unsure * (std::abs(above.w) + further * std::abs(below.w));
+            sides[i] = {beyond.x,
+                        beyond.y,
+                        beyond.z,
+                        offset,
+                        unsure * (magnitude(above) + further * magnitude(below)),
+                        beyond.x > T(0),
+                        beyond.y > T(0),
+                        beyond.z > T(0)};
+        }
+    }
+    // Whether a box of the block that is `taken` may reach beyond a side.
+    [[gnu::always_inline]] bool may_extend(Side const (&sides)[6], BoxArrays<T> const& at,
+                                           std::uint32_t const (&taken)[bodies_at_once]) const noexcept {
+        T size[bodies_at_once];
+        for (int i = 0; i < n; ++i) size[i] = size_of(at, i);
+        for (Side const& side : sides) {
+            T const* const x = side.hi_x ? at.hi_x : at.lo_x;
+            T const* const y = side.hi_y ? at.hi_y : at.lo_y;
+            T const* const z = side.hi_z ? at.hi_z : at.lo_z;
+            T const a = side.x, b = side.y, c = side.z, growth = side.growth, offset = side.offset;
+            std::uint32_t may = 0;
+            for (int i = 0; i < n; ++i) {
+                T const beyond = a * x[i] + b * y[i] + c * z[i] + (growth * size[i] + offset);
+                may |= beyond > T(0) ? taken[i] : 0u;
+            }
+            if (may != 0) return true;
+        }
+        return false;
+    }
+
     [[gnu::always_inline]] void perspective() const noexcept {
         BoundsInBlocks<T> so_far;
+        // Of what is known after the first 64 blocks, and after 128, 256, ... It does not pay sooner.
+        Side sides[6];
         T inverse[8][bodies_at_once];
         std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
         for (int block = 0; block < blocks; ++block) {
@@ -3270,6 +3510,13 @@ struct BoundsOfBoxes {
                 inverse[4][i] = T(1) / (xy00 + w.z1), inverse[5][i] = T(1) / (xy10 + w.z1);
                 inverse[6][i] = T(1) / (xy01 + w.z1), inverse[7][i] = T(1) / (xy11 + w.z1);
             }
+            if (any_astride != 0)
+                for (int i = 0; i < n; ++i)
+                    if (astride[i] != 0) add_astride(at, i);
+            if (block >= 64) {
+                if ((block & (block - 1)) == 0) take_sides(merge(bounds, so_far.merged()), sides);
+                if (!may_extend(sides, at, taken)) continue;
+            }
             for (int r = 0; r < 3; ++r) {
                 Vec4<T> const above = row(matrix, r);
                 for (int i = 0; i < n; ++i) {
@@ -3286,9 +3533,6 @@ struct BoundsOfBoxes {
                     so_far.add(r, i, taken[i], least, most);
                 }
             }
-            if (any_astride != 0)
-                for (int i = 0; i < n; ++i)
-                    if (astride[i] != 0) add_astride(at, i);
         }
         bounds = merge(bounds, so_far.merged());
     }
@@ -3302,31 +3546,39 @@ struct BoundsOfBoxes {
             for (int k = 0; k < 4; ++k) corner[r][k] = xy[k] + p.z0, corner[r][k + 4] = xy[k] + p.z1;
         }
         constexpr T largest = std::numeric_limits<T>::max();
-        Vec3<T> lo = bounds.lo, hi = bounds.hi;
-        auto const extend = [](T value, T& least, T& most) {
-            T const kept = value < -largest ? -largest : (value > largest ? largest : value);
-            least = kept < least ? kept : least;
-            most = kept > most ? kept : most;
-        };
+        T lo[3] = {largest, largest, largest}, hi[3] = {-largest, -largest, -largest};
         auto const add = [&](T x, T y, T z, T per_w) {
-            extend(x * per_w, lo.x, hi.x);
-            extend(y * per_w, lo.y, hi.y);
-            extend(z * per_w, lo.z, hi.z);
+            T const ndc[3] = {x * per_w, y * per_w, z * per_w};
+            for (int r = 0; r < 3; ++r) {
+                lo[r] = ndc[r] < lo[r] ? ndc[r] : lo[r];
+                hi[r] = ndc[r] > hi[r] ? ndc[r] : hi[r];
+            }
         };
+        unsigned front = 0;
         for (int k = 0; k < 8; ++k) {
             above[k] = corner[3][k] - w_min;
-            if (above[k] >= T(0)) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
+            front |= above[k] >= T(0) ? 1u << k : 0u;
         }
+        for (int k = 0; k < 8; ++k)
+            if ((front >> k & 1u) != 0) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
         T const per_w = T(1) / w_min;
-        for (int bit = 1; bit < 8; bit <<= 1)
+        constexpr unsigned lower_ends[3] = {0x55, 0x33, 0x0f};
+        for (int axis = 0; axis < 3; ++axis) {
+            unsigned const through = (front ^ front >> (1 << axis)) & lower_ends[axis];
             for (int k = 0; k < 8; ++k) {
-                int const j = k | bit;
-                if (j == k || (above[k] >= T(0)) == (above[j] >= T(0))) continue;
+                if ((through >> k & 1u) == 0) continue;
+                int const j = k | 1 << axis;
                 T const t = above[k] / (above[k] - above[j]), rest = T(1) - t;
                 add(corner[0][k] * rest + corner[0][j] * t, corner[1][k] * rest + corner[1][j] * t,
                     corner[2][k] * rest + corner[2][j] * t, per_w);
             }
-        bounds = {lo, hi};
+        }
+        // Numbers that are too large for the type are the largest.
+        for (int r = 0; r < 3; ++r) {
+            T const least = lo[r] < -largest ? -largest : lo[r], most = hi[r] > largest ? largest : hi[r];
+            bounds.lo[r] = least < bounds.lo[r] ? least : bounds.lo[r];
+            bounds.hi[r] = most > bounds.hi[r] ? most : bounds.hi[r];
+        }
     }
 
     // Whatever they are.
@@ -3366,10 +3618,10 @@ template <class T>
     int const whole = ordinary && count > 0 ? count / n * n : 0;
     if (whole > 0) detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, boxes, whole / n, bounds});
     if (ordinary && count > whole) {
-        // What is left of a block, filled up with empty boxes.
+        // What is left of a block, filled up with copies of its first box, which change nothing.
         T ends[6][n];
         for (int i = 0; i < n; ++i) {
-            Aabb<T> const box = whole + i < count ? box_at(boxes, whole + i) : Aabb<T>{Vec3<T>(T(1)), Vec3<T>(T(0))};
+            Aabb<T> const box = box_at(boxes, whole + i < count ? whole + i : whole);
             for (int axis = 0; axis < 3; ++axis) ends[axis][i] = box.lo[axis], ends[axis + 3][i] = box.hi[axis];
         }
         BoxArrays<T> const rest{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
@@ -3610,6 +3862,172 @@ template <class T>
         maps.visible_count += face.visible ? 1 : 0;
     }
     return maps;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/polytope.hpp ========
+//
+// A convex body that planes can cut: what a view sees of a box, what a light reaches of that. No heap, no sorting.
+//
+// The body is its edges, each with the two faces that meet there. A plane shortens edges; every face that it cuts is
+// left with two ends, and the line between them is a new edge, shared with the new face. So nothing ever needs to be
+// in order. Each face also keeps its own plane, which sweep.hpp follows the light with. Use it to bound what a map must
+// hold; for a box alone bounds.hpp is enough.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Six faces to begin with and up to twenty-six cuts: a polyhedron of f faces has at most 3 f - 6 edges.
+inline constexpr int max_body_faces = 32;
+inline constexpr int max_body_edges = 3 * max_body_faces - 6;
+
+template <class T>
+struct ConvexBody {
+    struct Edge {
+        Vec3<T> a;
+        Vec3<T> b;
+        std::array<std::uint8_t, 2> face;
+    };
+    std::array<Edge, max_body_edges> edges;
+    std::array<Vec4<T>, max_body_faces> half_space;  // of each face, >= 0 inside, of any length; 0 where none is known
+    int edge_count = 0;                              // 0: nothing left
+    int face_count = 0;
+};
+
+// From eight corners whose indices differ in one bit along an edge: a box, a view volume. A face without area has no
+// plane of its own.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> convex_body(std::array<Vec3<T>, 8> const& corners) noexcept {
+    ConvexBody<T> body;
+    body.face_count = 6;
+    for (unsigned i = 0; i < 8; ++i)
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            if ((i >> axis & 1u) != 0) continue;
+            // Face 2 * axis is the one at the axis' lower end; an edge along one axis lies in faces of the other two.
+            unsigned const u = (axis + 1) % 3, v = (axis + 2) % 3;
+            body.edges[static_cast<unsigned>(body.edge_count++)] = {
+                corners[i],
+                corners[i | 1u << axis],
+                {static_cast<std::uint8_t>(2 * u + (i >> u & 1u)), static_cast<std::uint8_t>(2 * v + (i >> v & 1u))}};
+        }
+    for (unsigned face = 0; face < 6; ++face) {
+        unsigned const axis = face / 2, at = (face & 1u) << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+        // The diagonals span the face even where two of its corners are one.
+        Vec3<T> const across = corners[at | u | v] - corners[at], aside = corners[at | v] - corners[at | u];
+        Vec3<T> const normal = safe_normalize(glm::cross(across, aside)).direction;
+        Vec3<T> const middle = (corners[at] + corners[at | u | v]) * T(0.5);
+        Vec3<T> const opposite = (corners[at ^ 1u << axis] + corners[(at ^ 1u << axis) | u | v]) * T(0.5);
+        T const sign = glm::dot(normal, opposite - middle) < T(0) ? T(-1) : T(1);
+        body.half_space[face] = sign * Vec4<T>(normal, -glm::dot(normal, middle));
+    }
+    return body;
+}
+
+// A box: its planes are known even where it is flat.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> convex_body(Aabb<T> const& box) noexcept {
+    ConvexBody<T> body = convex_body(corners(box));
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3<T> normal(T(0));
+        normal[axis] = T(1);
+        body.half_space[static_cast<unsigned>(2 * axis)] = Vec4<T>(normal, -box.lo[axis]);
+        body.half_space[static_cast<unsigned>(2 * axis + 1)] = Vec4<T>(-normal, box.hi[axis]);
+    }
+    return body;
+}
+
+// Every vertex, each as often as edges meet there.
+template <class T, class Visit>
+inline void for_each_vertex(ConvexBody<T> const& body, Visit&& visit) noexcept {
+    for (int i = 0; i < body.edge_count; ++i) {
+        visit(body.edges[static_cast<unsigned>(i)].a);
+        visit(body.edges[static_cast<unsigned>(i)].b);
+    }
+}
+
+// The part where half_space . (p, 1) >= 0. Flat bodies and planes through vertices are no special case: a vertex is
+// inside or outside, the same for all its edges.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> clipped(ConvexBody<T> const& body, Vec4<T> const& half_space) noexcept {
+    SHADOWMATH_ASSERT(body.face_count < max_body_faces, "a convex body was cut too often");
+    if (body.face_count >= max_body_faces) return body;
+    ConvexBody<T> kept;
+    kept.half_space = body.half_space;
+    kept.half_space[static_cast<unsigned>(body.face_count)] = half_space;
+    auto const add = [&kept](typename ConvexBody<T>::Edge const& edge) {
+        if (kept.edge_count < max_body_edges) kept.edges[static_cast<unsigned>(kept.edge_count++)] = edge;
+    };
+    auto const cap = static_cast<std::uint8_t>(body.face_count);
+    kept.face_count = body.face_count + 1;
+    std::array<Vec3<T>, max_body_faces> end_of_face;
+    std::array<bool, max_body_faces> open{};
+    for (int i = 0; i < body.edge_count; ++i) {
+        typename ConvexBody<T>::Edge edge = body.edges[static_cast<unsigned>(i)];
+        T const at_a = glm::dot(half_space, Vec4<T>(edge.a, T(1))), at_b = glm::dot(half_space, Vec4<T>(edge.b, T(1)));
+        bool const a_inside = at_a >= T(0), b_inside = at_b >= T(0);
+        if (!a_inside && !b_inside) continue;
+        if (a_inside != b_inside) {
+            // From the inner end: a far outer one then costs no precision.
+            T const t = a_inside ? at_a / (at_a - at_b) : at_b / (at_b - at_a);
+            Vec3<T> const cut = a_inside ? edge.a + (edge.b - edge.a) * t : edge.b + (edge.a - edge.b) * t;
+            (a_inside ? edge.b : edge.a) = cut;
+            for (std::uint8_t const face : edge.face) {
+                if (open[face]) add({end_of_face[face], cut, {face, cap}});
+                end_of_face[face] = cut;
+                open[face] = !open[face];
+            }
+        }
+        add(edge);
+    }
+    return kept;
+}
+
+// The same body elsewhere.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> translated(ConvexBody<T> const& body, Vec3<T> const& offset) noexcept {
+    ConvexBody<T> moved = body;
+    for (int i = 0; i < body.edge_count; ++i) {
+        moved.edges[static_cast<unsigned>(i)].a += offset;
+        moved.edges[static_cast<unsigned>(i)].b += offset;
+    }
+    for (int i = 0; i < body.face_count; ++i) {
+        Vec4<T>& plane = moved.half_space[static_cast<unsigned>(i)];
+        plane.w -= glm::dot(Vec3<T>(plane), offset);
+    }
+    return moved;
+}
+
+// What a view sees of a box, RELATIVE TO THE EYE: add view.pose.position for world points. Boxes of +-FLT_MAX are cut
+// to the bounds of the view before any arithmetic. A valid view with a finite z_far; an empty box gives an empty body.
+// `slack_metres` moves every plane outward: a wedge thinner than a rounding then loses nothing of its tip.
+template <class T>
+[[nodiscard]] inline ConvexBody<T> visible_body(ViewVolume<T> const& view, Aabb<T> const& box_in_world,
+                                                T slack_metres = T(0)) noexcept {
+    if (is_empty(box_in_world)) return {};
+    Vec3<T> const &x = view.pose.right, &y = view.pose.up, &z = view.pose.forward;
+    ViewVolume<T> centred = view;
+    centred.pose.position = Vec3<T>(T(0));
+    // NOTE: the square of this bound, times a few, still fits into a float.
+    Aabb<T> const bound{Vec3<T>(T(-1e12)), Vec3<T>(T(1e12))};
+    Vec3<T> const slack(slack_metres);
+    Aabb<T> const relative{box_in_world.lo - view.pose.position - slack, box_in_world.hi - view.pose.position + slack};
+    Aabb<T> const seen = bounds_of(corners(centred));
+    Aabb<T> const box = intersect(intersect(relative, Aabb<T>{seen.lo - slack, seen.hi + slack}), bound);
+    if (is_empty(box)) return {};
+    bool const flat = view.kind == ViewKind::orthographic;
+    auto const side = [&z, flat, slack_metres](Vec3<T> const& inward, T limit) {
+        if (flat) return Vec4<T>(inward, slack_metres - limit);
+        return Vec4<T>(safe_normalize(inward - z * limit).direction, slack_metres);
+    };
+    ConvexBody<T> body = convex_body(box);
+    body = clipped(body, side(x, view.left));
+    body = clipped(body, side(-x, -view.right));
+    body = clipped(body, side(y, view.bottom));
+    body = clipped(body, side(-y, -view.top));
+    body = clipped(body, Vec4<T>(z, slack_metres - view.z_near));
+    return clipped(body, Vec4<T>(-z, view.z_far + slack_metres));
 }
 
 }  // namespace v0
@@ -4245,6 +4663,16 @@ inline constexpr T footprint_limit = T(1e6);
 template <class T>
 [[nodiscard]] inline T area(Footprint<T> const& footprint) noexcept {
     return footprint.major * footprint.minor;
+}
+
+// What a footprint of `major` pixels counts for where maps are compared: the pixels that come out wrong, as measured
+// over many views. A texel of a pixel and a half is as good as any smaller one; from there on so many more are wrong,
+// until a texel of some thirty pixels has lost the shadow, and larger ones lose no more.
+template <class T>
+[[nodiscard]] inline T price_of(T major) noexcept {
+    constexpr T fine = T(1.4), lost = T(30);
+    T const excess = major > fine ? major - fine : T(0), share = excess / lost;
+    return T(0.1) * (major < fine ? major : fine) + excess / std::sqrt(T(1) + share * share);
 }
 
 // The same seen from the map: the axes, in texels, of one eye pixel. Above 1 the map is finer than the picture needs.
@@ -5085,7 +5513,7 @@ struct CascadeOptions {
     int map_size = 2048;  // texels along one side of each
     CascadeFit fit = CascadeFit::stable;
     int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
-    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none
+    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none; see warp_less
     T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
     T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
     T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
@@ -5093,6 +5521,7 @@ struct CascadeOptions {
     int filter_radius = 1;     // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
     bool pancake = false;      // true: near plane at the slice, and the renderer turns depth clamp ON
     ClipSpace clip = gl_clip;  // the convention of the pass that draws the maps
+    std::array<T, max_splits> warp_less{};  // the share of warp_strength that each map goes without, [0, 1]
 };
 
 template <class T>
@@ -5168,11 +5597,11 @@ inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasi
 
 // `previous`: the same map in the last frame, or one that is not visible.
 template <class T>
-inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, ViewVolume<T> const& part,
+inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_strength, ViewVolume<T> const& part,
                             Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
                             Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
     if (cascade_fit == CascadeFit::warped) {
-        WarpOptions<T> const warp{options.map_size, margin_texels, options.warp_strength};
+        WarpOptions<T> const warp{options.map_size, margin_texels, warp_strength};
         cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
         return;
     }
@@ -5256,8 +5685,9 @@ template <class T>
         if (light.kind == LightKind::directional) {
             Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
             CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
-            detail::fit_directional(cascade, cascade_fit, part, light, last, casters, receivers, margin_texels,
-                                    options);
+            T const strength = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(i)]);
+            detail::fit_directional(cascade, cascade_fit, strength, part, light, last, casters, receivers,
+                                    margin_texels, options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }
@@ -5391,6 +5821,34 @@ template <class T>
     return half.length > T(1e-3) ? half.direction : to_eye;
 }
 
+// Where a ray of the view is inside a box.
+template <class T>
+struct DepthSpan {
+    T first = T(0);  // eye depth
+    T last = T(-1);  // below first: it misses
+};
+
+// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
+template <class T>
+[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
+                                                Aabb<T> const& box) noexcept {
+    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
+    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
+    T first = T(0), last = T(1);  // of the way
+    for (int axis = 0; axis < 3; ++axis) {
+        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
+        if (std::abs(way[axis]) > T(0)) {
+            T const a = to_lo / way[axis], b = to_hi / way[axis];
+            first = std::fmax(first, std::fmin(a, b));
+            last = std::fmin(last, std::fmax(a, b));
+        } else if (to_lo > T(0) || to_hi < T(0)) {
+            return {};
+        }
+    }
+    T const range = view.z_far - view.z_near;
+    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
+}
+
 // Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
 // depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
 // without an end.
@@ -5405,22 +5863,9 @@ template <class T>
     for (int ray = 0; ray < rays * rays; ++ray) {
         T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
         T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
-        Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
-        Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
-        T first = T(0), last = T(1);  // of the way
-        for (int axis = 0; axis < 3; ++axis) {
-            T const to_lo = receivers.lo[axis] - start[axis], to_hi = receivers.hi[axis] - start[axis];
-            if (std::abs(way[axis]) > T(0)) {
-                T const a = to_lo / way[axis], b = to_hi / way[axis];
-                first = std::fmax(first, std::fmin(a, b));
-                last = std::fmin(last, std::fmax(a, b));
-            } else if (to_lo > T(0) || to_hi < T(0)) {
-                last = T(-1);
-            }
-        }
-        if (!(first <= last)) continue;
-        T const range = view.z_far - view.z_near;
-        T const begin = view.z_near + first * range, end = view.z_near + last * range;
+        DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, receivers);
+        if (!(inside.first <= inside.last)) continue;
+        T const begin = inside.first, end = inside.last;
         T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
         int const count = ratio > T(1.001) ? on_each : 1;
         for (int i = 0; i < count; ++i) {
@@ -5437,6 +5882,7 @@ template <class T>
 struct Worth {
     T worst = T(0);    // eye pixels per texel along the longer axis of the footprint, at the worst point
     T mean = T(0);     // of all points
+    T price = T(0);    // the mean of price_of
     int count = 0;     // points
     int unserved = 0;  // of them: no map holds them; they count as footprint_limit
 };
@@ -5458,7 +5904,8 @@ template <class T>
     Mat4<T> const eye = clip_from_world(view, ClipSpace{});
     auto const take = [](Worth<T>& worth, T major) {
         worth.worst = std::fmax(worth.worst, major);
-        worth.mean += major;  // a sum until the end
+        worth.mean += major;  // sums until the end
+        worth.price += price_of(major);
         worth.unserved += major >= footprint_limit<T> ? 1 : 0;
         ++worth.count;
     };
@@ -5482,7 +5929,11 @@ template <class T>
             break;
         }
     }
-    auto const close = [](Worth<T>& worth) { worth.mean = worth.count > 0 ? worth.mean / T(worth.count) : T(0); };
+    auto const close = [](Worth<T>& worth) {
+        T const count = T(worth.count > 0 ? worth.count : 1);
+        worth.mean /= count;
+        worth.price /= count;
+    };
     close(judgement.all);
     for (Worth<T>& worth : judgement.map) close(worth);
     return judgement;
@@ -6187,7 +6638,7 @@ inline namespace v0 {
 [[nodiscard]] constexpr int frames_between(int map, int count) noexcept {
     if (map <= 0 || count <= 1) return 1;
     int const power = map < count - 1 ? map : count - 2;
-    return power < 0 ? 1 : 1 << (power < 30 ? power : 30);
+    return 1 << (power < 30 ? power : 30);
 }
 
 // Bit i: map i is due. In any frames_between(i, count) frames in a row each map is due exactly once, and in no frame
@@ -6411,6 +6862,8 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T plane_map_area(T point_normal_to_eye, T plane_normal_to_eye, T point_normal_to_light,
                                       T plane_normal_to_light, T w_point, T w_plane) noexcept {
+    for (T const divisor : {w_point, plane_normal_to_eye, point_normal_to_light})
+        if (!(std::abs(divisor) > T(0))) return T(0);
     T const bend = w_plane / w_point;
     T const tilt = (point_normal_to_eye / plane_normal_to_eye) * (plane_normal_to_light / point_normal_to_light);
     T const result = std::abs(tilt * bend * bend * bend);
@@ -6779,38 +7232,51 @@ template <class T>
 namespace shadowmath {
 inline namespace v0 {
 
-// No map that holds the point, `margin_texels` from its sides, has a smaller footprint (major axis) than the first; the
-// earlier one where two are equal. The second is the next best, where its footprint is less than 1 + band times the
-// first's; its share falls from a half to none over the band. None of the maps: -1, the point is lit. A normal without
-// length chooses the first map that holds the point.
+// The finest two maps of those met so far, and their footprints.
+template <class T>
+struct FinestMaps {
+    int first = -1;  // -1: none
+    int second = -1;
+    T first_major = T(0);  // eye pixels
+    T second_major = T(0);
+};
+
+// With one more map, whose texels are `major` pixels long at the point. The earlier one stays first where two are
+// equal.
+template <class T>
+[[nodiscard]] inline FinestMaps<T> with_map(FinestMaps<T> finest, int map, T major) noexcept {
+    if (finest.first < 0 || major < finest.first_major) return {map, finest.first, major, finest.first_major};
+    if (finest.second < 0 || major < finest.second_major) {
+        finest.second = map;
+        finest.second_major = major;
+    }
+    return finest;
+}
+
+// The second takes part where its footprint is less than 1 + band times the first's; its share falls from a half to
+// none over the band.
+template <class T>
+[[nodiscard]] inline LookUp<T> look_up_in(FinestMaps<T> const& finest, T band) noexcept {
+    bool const mixes = finest.second >= 0 && all_finite(&band, 1) && band > T(0) && finest.first_major > T(0);
+    T const excess = mixes ? (finest.second_major / finest.first_major - T(1)) / band : T(1);
+    if (excess < T(1)) return {finest.first, finest.second, T(0.5) * (T(1) - excess)};
+    return {finest.first, -1, T(0)};
+}
+
+// No map that holds the point, `margin_texels` from its sides, has a smaller footprint (major axis) than the first.
+// None of the maps: -1, the point is lit. A normal without length chooses the first map that holds the point.
 template <class T>
 [[nodiscard]] inline LookUp<T> by_footprint(ShadowMap<T> const* maps, int count, int map_size, T margin_texels,
                                             Mat4<T> const& eye_clip_from_world, Vec2<T> const& eye_pixels,
                                             Vec3<T> const& point, Vec3<T> const& normal, T band = T(0)) noexcept {
     SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "no maps to choose from");
-    LookUp<T> best;
-    T first = T(0), second = T(0);
+    FinestMaps<T> finest;
     for (int i = 0; i < count; ++i) {
         if (!contains(maps[i], map_size, margin_texels, point)) continue;
-        T const major =
-            footprint(eye_clip_from_world, eye_pixels, maps[i].clip_from_world, T(map_size), point, normal).major;
-        if (best.first < 0 || major < first) {
-            best.second = best.first;
-            second = first;
-            best.first = i;
-            first = major;
-        } else if (best.second < 0 || major < second) {
-            best.second = i;
-            second = major;
-        }
+        Mat4<T> const& map = maps[i].clip_from_world;
+        finest = with_map(finest, i, footprint(eye_clip_from_world, eye_pixels, map, T(map_size), point, normal).major);
     }
-    bool const mixes = best.second >= 0 && all_finite(&band, 1) && band > T(0) && first > T(0);
-    T const excess = mixes ? (second / first - T(1)) / band : T(1);
-    if (excess < T(1))
-        best.blend = T(0.5) * (T(1) - excess);
-    else
-        best.second = -1;
-    return best;
+    return look_up_in(finest, band);
 }
 
 }  // namespace v0
@@ -6908,13 +7374,14 @@ template <class T>
 // ======== shadowmath/choose.hpp ========
 //
 // Options found by measuring: how many maps, how large, split where, fitted how, so that the worst (or the mean)
-// footprint over what the eye sees is least, within a number of texels. For a settings menu, an editor, the loading of
-// a level, or again when the camera has gone somewhere else; not for every frame, since options that change make
-// shadows jump.
+// footprint over what the eye sees is least, or the fewest pixels come out wrong, within a number of texels. For a
+// settings menu, an editor, the loading of a level, or again when the camera has gone somewhere else; not for every
+// frame, since options that change make shadows jump.
 //
 // It tries them: every number of maps, every fit allowed, eleven values of lambda and then between the best two
-// neighbours. No randomness, no clock; the same inputs give the same options, after at most 29 tries for each pair of
-// count and fit. Where two are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
+// neighbours; of warped maps also each with half of its warp and with none. No randomness, no clock; the same inputs
+// give the same options, after at most 29 tries for each pair of count and fit and two for each warped map. Where two
+// are equal to a fiftieth the earlier one stays: fewer maps, and the calmer fit.
 //
 // Source: none; engines leave this to the user's eye. The closed forms (aliasing.hpp) say what is best for one light on
 // one plane; this holds for any.
@@ -6922,7 +7389,11 @@ template <class T>
 namespace shadowmath {
 inline namespace v0 {
 
-enum class Goal : std::uint8_t { least_worst, least_mean };
+enum class Goal : std::uint8_t {
+    least_worst,   // of the footprints: no place is much worse than the others
+    least_mean,    // of the footprints
+    fewest_wrong,  // of the pixels (price_of): the truest picture, and what choose_maps goes by
+};
 
 enum class Motion : std::uint8_t {
     still,    // no shimmer at all: stable fits
@@ -6942,7 +7413,7 @@ struct ChoiceLimits {
 
 template <class T>
 struct Choice {
-    CascadeOptions<T> options;  // those given, with count, map_size, fit, steady_maps and lambda chosen
+    CascadeOptions<T> options;  // those given, with count, map_size, fit, steady_maps, lambda, warp_less chosen
     Judgement<T> judgement;     // of these options
     int tried = 0;
     bool visible = false;  // false: no map showed any of the samples, and the options are those given
@@ -6971,7 +7442,11 @@ template <class T>
     if (most != limits.most_maps || limits.texels < 16 || limits.largest_map < 4) best.faults = Fault::clamped_option;
     T least = footprint_limit<T>;
     auto const value = [&limits](Judgement<T> const& judgement) {
-        return limits.goal == Goal::least_worst ? judgement.all.worst : judgement.all.mean;
+        switch (limits.goal) {
+            case Goal::least_mean: return judgement.all.mean;
+            case Goal::fewest_wrong: return judgement.all.price;
+            default: return judgement.all.worst;
+        }
     };
     auto const attempt = [&](CascadeOptions<T> const& options) {
         Cascades<T> const cascades = fit_cascades(view, light, casters, receivers, options);
@@ -7017,6 +7492,18 @@ template <class T>
             best.visible = true;
         }
     }
+    if (best.options.fit != CascadeFit::warped || !best.visible) return best;
+    // A warp helps where the view looks along the ground, and takes from what is far away: each map decides.
+    for (int c = 0; c < best.options.count; ++c)
+        for (T const less : {T(0.5), T(1)}) {
+            CascadeOptions<T> options = best.options;
+            options.warp_less[static_cast<unsigned>(c)] = less;
+            Judgement<T> const measured = attempt(options);
+            if (!(value(measured) < least)) continue;
+            least = value(measured);
+            best.options = options;
+            best.judgement = measured;
+        }
     return best;
 }
 
@@ -7157,83 +7644,107 @@ inline constexpr int guess_rays_y = 12;
 template <class T>
 inline constexpr T leaning_surfaces = T(3);
 
-// Where a ray of the view is inside a box.
+// A surface that the eye may see along one ray.
 template <class T>
-struct DepthSpan {
-    T first = T(0);  // eye depth
-    T last = T(-1);  // below first: it misses
+struct DepthGuess {
+    T depth = T(0);   // of the eye
+    T weight = T(0);  // of a ray: they sum to 1, or there are none
 };
 
-// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
 template <class T>
-[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
-                                                Aabb<T> const& box) noexcept {
-    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
-    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
-    T first = T(0), last = T(1);  // of the way
-    for (int axis = 0; axis < 3; ++axis) {
-        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
-        if (std::abs(way[axis]) > T(0)) {
-            T const a = to_lo / way[axis], b = to_hi / way[axis];
-            first = std::fmax(first, std::fmin(a, b));
-            last = std::fmin(last, std::fmax(a, b));
-        } else if (to_lo > T(0) || to_hi < T(0)) {
-            return {};
+struct RayGuesses {
+    std::array<DepthGuess<T>, 8> at;
+    int count = 0;
+};
+
+// Two in each of the first four boxes that the ray meets. Boxes that are empty or not finite are none.
+template <class T>
+[[nodiscard]] inline RayGuesses<T> guesses_on_ray(ViewVolume<T> const& view, T side_x, T side_y, Aabb<T> const* boxes,
+                                                  int box_count) noexcept {
+    constexpr int most = 4;
+    RayGuesses<T> guesses;
+    std::array<DepthSpan<T>, most> span;  // by their first depths
+    DepthSpan<T> around;                  // of the boxes that the eye is in, the one that ends last
+    int met = 0;
+    for (int b = 0; b < box_count; ++b) {
+        if (!all_finite(boxes[b]) || is_empty(boxes[b])) continue;
+        DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, boxes[b]);
+        if (!(inside.first <= inside.last)) continue;
+        if (!(inside.first > view.z_near)) {
+            if (inside.last > around.last) around = inside;
+            continue;
         }
+        if (met == most && !(inside.first < span[most - 1].first)) continue;
+        int at = met < most ? met++ : most - 1;
+        for (; at > 0 && span[static_cast<unsigned>(at - 1)].first > inside.first; --at)
+            span[static_cast<unsigned>(at)] = span[static_cast<unsigned>(at - 1)];
+        span[static_cast<unsigned>(at)] = inside;
     }
-    T const range = view.z_far - view.z_near;
-    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
+    auto const guess = [&guesses](DepthSpan<T> const& in, T part, T weight) {
+        guesses.at[static_cast<unsigned>(guesses.count++)] = {in.first + (in.last - in.first) * part, weight};
+    };
+    T left = T(1);
+    for (int i = 0; i < met; ++i) {
+        T const here = i + 1 < met ? T(0.5) * left : left;
+        left -= here;
+        guess(span[static_cast<unsigned>(i)], T(0.25), T(0.5) * here);
+        guess(span[static_cast<unsigned>(i)], T(0.75), T(0.5) * here);
+    }
+    if (met == 0 && around.first <= around.last) {
+        guess(around, T(0.5), T(0.5));
+        guess(around, T(0.9), T(0.5));
+    }
+    return guesses;
 }
 
-// Fills `into` with at most `capacity` weighted guesses and returns how many: two in each of the first four boxes that
-// a ray meets.
+// Fills `into` with at most `capacity` weighted guesses and returns how many.
 template <class T>
 [[nodiscard]] inline int guesses_in_boxes(LightSampler<T> const& sampler, Light<T> const& light, Aabb<T> const* boxes,
                                           int box_count, LightSample<T>* into, int capacity) noexcept {
-    constexpr int most = 4, rays_x = guess_rays_x, rays_y = guess_rays_y;
+    constexpr int rays_x = guess_rays_x, rays_y = guess_rays_y;
     int count = 0;
     ViewVolume<T> const& view = sampler.view;
     for (int ray = 0; ray < rays_x * rays_y; ++ray) {
         T const part_x = (T(ray % rays_x) + T(0.5)) / T(rays_x), part_y = (T(ray / rays_x) + T(0.5)) / T(rays_y);
         T const side_x = view.left + (view.right - view.left) * part_x;
         T const side_y = view.bottom + (view.top - view.bottom) * part_y;
-        std::array<DepthSpan<T>, most> span;  // by their first depths
-        DepthSpan<T> around;                  // of the boxes that the eye is in, the one that ends last
-        int met = 0;
-        for (int b = 0; b < box_count; ++b) {
-            if (!all_finite(boxes[b]) || is_empty(boxes[b])) continue;
-            DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, boxes[b]);
-            if (!(inside.first <= inside.last)) continue;
-            if (!(inside.first > view.z_near)) {
-                if (inside.last > around.last) around = inside;
-                continue;
-            }
-            if (met == most && !(inside.first < span[most - 1].first)) continue;
-            int at = met < most ? met++ : most - 1;
-            for (; at > 0 && span[static_cast<unsigned>(at - 1)].first > inside.first; --at)
-                span[static_cast<unsigned>(at)] = span[static_cast<unsigned>(at - 1)];
-            span[static_cast<unsigned>(at)] = inside;
-        }
-        auto const guess = [&](DepthSpan<T> const& in, T part, T weight) {
-            if (count == capacity) return;
-            Vec3<T> const point = point_at(view, side_x, side_y, in.first + (in.last - in.first) * part);
+        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        for (int i = 0; i < guesses.count && count < capacity; ++i) {
+            DepthGuess<T> const& guess = guesses.at[static_cast<unsigned>(i)];
+            Vec3<T> const point = point_at(view, side_x, side_y, guess.depth);
             LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
-            sample.weight = weight;
+            sample.weight = guess.weight;
             if (sample.usable) into[count++] = sample;
-        };
-        T left = T(1);
-        for (int i = 0; i < met; ++i) {
-            T const here = i + 1 < met ? T(0.5) * left : left;
-            left -= here;
-            guess(span[static_cast<unsigned>(i)], T(0.25), T(0.5) * here);
-            guess(span[static_cast<unsigned>(i)], T(0.75), T(0.5) * here);
-        }
-        if (met == 0 && around.first <= around.last) {
-            guess(around, T(0.5), T(0.5));
-            guess(around, T(0.9), T(0.5));
         }
     }
     return count;
+}
+
+// The same as samples for choose.hpp and judge.hpp, which know no weights: on each of eight by eight rays four, the
+// more of them in a box the likelier the ray ends there. None of a view with faults, or without an end.
+template <class T>
+[[nodiscard]] inline Samples<T> samples_in_boxes(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const* boxes,
+                                                 int box_count) noexcept {
+    SHADOWMATH_ASSERT(boxes != nullptr || box_count <= 0, "samples need their boxes");
+    Samples<T> samples;
+    if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light)) return samples;
+    constexpr int rays = 8, on_each = max_samples / (rays * rays);
+    for (int ray = 0; ray < rays * rays; ++ray) {
+        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
+        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
+        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        int at = 0;
+        T passed = T(0);  // weight of the guesses before `at`
+        for (int i = 0; i < on_each && guesses.count > 0; ++i) {
+            T const share = (T(i) + T(0.5)) / T(on_each);
+            while (at + 1 < guesses.count && passed + guesses.at[static_cast<unsigned>(at)].weight < share)
+                passed += guesses.at[static_cast<unsigned>(at++)].weight;
+            Vec3<T> const point = point_at(view, side_x, side_y, guesses.at[static_cast<unsigned>(at)].depth);
+            if (!all_finite(point)) continue;
+            samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
+        }
+    }
+    return samples;
 }
 
 }  // namespace v0
@@ -7413,15 +7924,6 @@ template <class T>
 
 namespace shadowmath {
 inline namespace v0 {
-
-// What a footprint of `major` pixels counts for: the pixels that come out wrong, as measured over many views. A texel
-// of a pixel and a half is as good as any smaller one; from there on so many more are wrong, until the shadow is lost.
-template <class T>
-[[nodiscard]] inline T price_of(T major) noexcept {
-    constexpr T fine = T(1.4), lost = T(60);
-    T const excess = major > fine ? major - fine : T(0);
-    return T(0.1) * (major < fine ? major : fine) + excess / (T(1) + excess / lost);
-}
 
 // Eye pixels along the longer axis of a texel of the quadrilateral's map at the sample.
 template <class T>
@@ -7833,6 +8335,105 @@ inline void settle(PartSearch<T, Bound>& search, PartTree<T>& tree) noexcept {
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/quad_stack.hpp ========
+//
+// Maps one behind another: the parts of a search as quadrilaterals, finest first, each around what no earlier one
+// holds.
+//
+//   by_map (sampling.hpp) looks a point up in the first map that holds it, so what lies in an earlier one need not be
+//   in a later one: that becomes smaller, and its texels finer. A part that the earlier ones hold whole gets no map.
+//
+// The last step of choose_maps.hpp; of no use without it.
+//
+// Source: none; that overlapping cascades serve best by containment is folklore.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// The quadrilaterals of the parts, finest first, each around what no earlier one holds.
+template <class T>
+struct QuadStack {
+    std::array<Quad<T>, max_chosen_maps> quad;
+    std::array<ViewPart<T>, max_chosen_maps> part;  // that each was made for
+    int count = 0;
+    std::array<ViewPart<T>, max_chosen_maps> held;  // parts that needed none of their own
+    int held_count = 0;
+
+    // The first that holds all of the points; -1: none.
+    [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
+        for (int k = 0; k < count; ++k) {
+            int inside = 0;
+            while (inside < point_count && is_in(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside]))) ++inside;
+            if (inside == point_count) return k;
+        }
+        return -1;
+    }
+    [[nodiscard]] int holder(LightSample<T> const& sample) const noexcept {
+        Vec3<T> const place(sample.place, sample.depth);
+        return holder(&place, 1);
+    }
+};
+
+// `cover(part, visit)` calls visit(points, count) for convex pieces that together hold all that may be seen in the
+// part: a piece that an earlier quadrilateral holds whole is left out, any other is held whole.
+template <class T, class Bound, class Cover>
+[[nodiscard]] inline QuadStack<T> stacked(PartSearch<T, Bound>& search, PartTree<T> const& tree,
+                                          Cover const& cover) noexcept {
+    MapSearch<T>& work = search.work;
+    std::array<unsigned, max_chosen_maps> order{};
+    unsigned leaves = 0;
+    for (unsigned n = 0; n < static_cast<unsigned>(tree.count); ++n) {
+        if (tree.node[n].axis >= 0) continue;
+        unsigned at = leaves++;
+        for (; at > 0 && area(tree.node[order[at - 1]].fit.quad) > area(tree.node[n].fit.quad); --at)
+            order[at] = order[at - 1];
+        order[at] = n;
+    }
+    QuadStack<T> stack;
+    for (unsigned k = 0; k < leaves; ++k) {
+        ViewPart<T> const& part = tree.node[order[k]].part;
+        int const all = search.gather(part);
+        SampleFrame<T> const frame = frame_of(work.sample.data(), work.list.data(), all);
+        unsigned own = 0;  // those that are left to this map
+        for (unsigned i = 0; i < static_cast<unsigned>(all); ++i)
+            if (stack.holder(work.sample[work.list[i]]) < 0) work.list[own++] = work.list[i];
+        SampleFrame<T> const own_frame = frame_of(work.sample.data(), work.list.data(), static_cast<int>(own));
+        Supports<T> supports = no_supports(own > 2 ? own_frame : frame);
+        cover(part, [&](Vec3<T> const* points, int count) {
+            if (stack.holder(points, count) >= 0) return;
+            for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
+        });
+        QuadFit<T> const fit =
+            fit_quad(supports, work.sample.data(), work.list.data(), static_cast<int>(own), search.usable_texels);
+        if (!fit.quad.visible) {
+            stack.held[static_cast<unsigned>(stack.held_count++)] = part;
+            continue;
+        }
+        stack.part[static_cast<unsigned>(stack.count)] = part;
+        stack.quad[static_cast<unsigned>(stack.count++)] = fit.quad;
+    }
+    return stack;
+}
+
+// All samples, each in the first map that holds it; those that none holds are lost.
+template <class T>
+[[nodiscard]] inline T price_in(QuadStack<T> const& stack, MapSearch<T> const& work, T usable_texels) noexcept {
+    T sum = T(0);
+    for (int i = 0; i < work.count; ++i) {
+        LightSample<T> const& sample = work.sample[static_cast<unsigned>(i)];
+        int const k = stack.holder(sample);
+        T const major =
+            k < 0 ? footprint_limit<T> : major_at(stack.quad[static_cast<unsigned>(k)], usable_texels, sample);
+        sum += sample.weight * price_of(major);
+    }
+    return sum;
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/choose_maps.hpp ========
 //
 // Maps instead of options: up to four, put where the picture needs them, found by measuring.
@@ -7932,83 +8533,6 @@ template <class T>
     T const along_y = std::abs(quad.w.x * quad.x.y - quad.w.y * quad.x.x);
     T const lesser = along_x < along_y ? along_x : along_y, greater = along_x < along_y ? along_y : along_x;
     return lesser < T(0.2) * greater ? MapShape::warp : MapShape::lopsided;
-}
-
-// The quadrilaterals of the parts, finest first, each around what no earlier one holds.
-template <class T>
-struct QuadStack {
-    std::array<Quad<T>, max_chosen_maps> quad;
-    std::array<ViewPart<T>, max_chosen_maps> part;  // that each was made for
-    int count = 0;
-    std::array<ViewPart<T>, max_chosen_maps> held;  // parts that needed none of their own
-    int held_count = 0;
-
-    // The first that holds all of the points; -1: none.
-    [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
-        for (int k = 0; k < count; ++k) {
-            int inside = 0;
-            while (inside < point_count && is_in(quad[static_cast<unsigned>(k)], Vec2<T>(points[inside]))) ++inside;
-            if (inside == point_count) return k;
-        }
-        return -1;
-    }
-    [[nodiscard]] int holder(LightSample<T> const& sample) const noexcept {
-        Vec3<T> const place(sample.place, sample.depth);
-        return holder(&place, 1);
-    }
-};
-
-template <class T, class Bound, class Cover>
-[[nodiscard]] inline QuadStack<T> stacked(PartSearch<T, Bound>& search, PartTree<T> const& tree,
-                                          Cover const& cover) noexcept {
-    MapSearch<T>& work = search.work;
-    std::array<unsigned, max_chosen_maps> order{};
-    unsigned leaves = 0;
-    for (unsigned n = 0; n < static_cast<unsigned>(tree.count); ++n) {
-        if (tree.node[n].axis >= 0) continue;
-        unsigned at = leaves++;
-        for (; at > 0 && area(tree.node[order[at - 1]].fit.quad) > area(tree.node[n].fit.quad); --at)
-            order[at] = order[at - 1];
-        order[at] = n;
-    }
-    QuadStack<T> stack;
-    for (unsigned k = 0; k < leaves; ++k) {
-        ViewPart<T> const& part = tree.node[order[k]].part;
-        int const all = search.gather(part);
-        SampleFrame<T> const frame = frame_of(work.sample.data(), work.list.data(), all);
-        unsigned own = 0;  // those that are left to this map
-        for (unsigned i = 0; i < static_cast<unsigned>(all); ++i)
-            if (stack.holder(work.sample[work.list[i]]) < 0) work.list[own++] = work.list[i];
-        SampleFrame<T> const own_frame = frame_of(work.sample.data(), work.list.data(), static_cast<int>(own));
-        Supports<T> supports = no_supports(own > 2 ? own_frame : frame);
-        cover(part, [&](Vec3<T> const* points, int count) {
-            if (stack.holder(points, count) >= 0) return;
-            for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
-        });
-        QuadFit<T> const fit =
-            fit_quad(supports, work.sample.data(), work.list.data(), static_cast<int>(own), search.usable_texels);
-        if (!fit.quad.visible) {
-            stack.held[static_cast<unsigned>(stack.held_count++)] = part;
-            continue;
-        }
-        stack.part[static_cast<unsigned>(stack.count)] = part;
-        stack.quad[static_cast<unsigned>(stack.count++)] = fit.quad;
-    }
-    return stack;
-}
-
-// All samples, each in the first map that holds it; those that none holds are lost.
-template <class T>
-[[nodiscard]] inline T price_in(QuadStack<T> const& stack, MapSearch<T> const& work, T usable_texels) noexcept {
-    T sum = T(0);
-    for (int i = 0; i < work.count; ++i) {
-        LightSample<T> const& sample = work.sample[static_cast<unsigned>(i)];
-        int const k = stack.holder(sample);
-        T const major =
-            k < 0 ? footprint_limit<T> : major_at(stack.quad[static_cast<unsigned>(k)], usable_texels, sample);
-        sum += sample.weight * price_of(major);
-    }
-    return sum;
 }
 
 // `cover(part, visit)` calls visit(points, count) for convex pieces that together hold all that may be seen in the
@@ -9742,9 +10266,8 @@ template <class T>
     MapBias<T> const bias = bias_for(map, light, map_size, options);
     GpuMapBias gpu{static_cast<float>(bias.constant), static_cast<float>(bias.per_inverse_w),
                    static_cast<float>(bias.slope_texels), static_cast<float>(bias.slope_limit)};
-    bool const finite = all_finite(&gpu.constant, 1) && all_finite(&gpu.per_inverse_w, 1) &&
-                        all_finite(&gpu.slope_texels, 1) && all_finite(&gpu.slope_limit, 1);
-    return {gpu_shadow_map(map), finite ? gpu : GpuMapBias{}};
+    float const numbers[] = {gpu.constant, gpu.per_inverse_w, gpu.slope_texels, gpu.slope_limit};
+    return {gpu_shadow_map(map), all_finite(numbers, 4) ? gpu : GpuMapBias{}};
 }
 
 // Hard shadows where float cannot hold the numbers.
@@ -9795,20 +10318,20 @@ namespace shadowmath {
 inline namespace v0 {
 
 struct GpuSampleFit {
-    Vec4<float> basis_x;      // w: z_near, metres of eye depth
-    Vec4<float> basis_y;      // w: z_far
-    Vec4<float> basis_depth;  // w: least ratio of a split
-    Vec4<float>
-        inverse_along;       // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
-    Vec4<float> eye;         // in light space; w: texels along a side of the map
-    Vec4<float> forward;     // of the eye, in light space; w: margin as a share of the body's extent
-    Vec4<float> right;       // w: 1 / (usable texels - 1), for still maps
-    Vec4<float> up;          // w: what the depth buffer is cleared to
-    Vec4<float> first_step;  // sides at the centre of pixel (0, 0), and from pixel to pixel
-    Vec4<float> casters_lo;  // world
-    Vec4<float> casters_hi;
-    Vec4<float> depth_code;  // numerator's scale and offset, denominator's scale and offset
-    Vec4<float> bias;        // of BiasOptions: flat_texels, texels, steepest, depth_step
+    Vec4<float> basis_x{0.0f};      // w: z_near, metres of eye depth
+    Vec4<float> basis_y{0.0f};      // w: z_far
+    Vec4<float> basis_depth{0.0f};  // w: least ratio of a split
+    // 1 / basis_depth, 0 where light_entry skips the axis; w: fraction of splits that blends
+    Vec4<float> inverse_along{0.0f};
+    Vec4<float> eye{0.0f};         // in light space; w: texels along a side of the map
+    Vec4<float> forward{0.0f};     // of the eye, in light space; w: margin as a share of the body's extent
+    Vec4<float> right{0.0f};       // w: 1 / (usable texels - 1), for still maps
+    Vec4<float> up{0.0f};          // w: what the depth buffer is cleared to
+    Vec4<float> first_step{0.0f};  // sides at the centre of pixel (0, 0), and from pixel to pixel
+    Vec4<float> casters_lo{0.0f};  // world
+    Vec4<float> casters_hi{0.0f};
+    Vec4<float> depth_code{0.0f};  // numerator's scale and offset, denominator's scale and offset
+    Vec4<float> bias{0.0f};        // of BiasOptions: flat_texels, texels, steepest, depth_step
     Mat4<float> clip_from_canonical{1.0f};
     std::int32_t width = 0;  // pixels
     std::int32_t height = 0;
@@ -9852,28 +10375,30 @@ struct SampleSplitOptions {
 //
 // `camera` and `camera_clip` are what the depth buffer was drawn with; samples from shadow_distance on get no shadow
 // (0: camera.z_far). Inputs with faults give count = 0, and the shaders make no map.
-[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<float> const& camera, ClipSpace camera_clip,
-                                                 float shadow_distance, Light<float> const& light, int width,
-                                                 int height, Aabb<float> const& casters,
-                                                 SampleSplitOptions<float> const& splits,
-                                                 SampleFitOptions<float> const& options,
-                                                 BiasOptions<float> const& bias = {}) noexcept {
+// NOTE: a template for float alone, so that it costs nothing to compile where it is not called.
+template <class T>
+[[nodiscard]] inline GpuSampleFit gpu_sample_fit(ViewVolume<T> const& camera, ClipSpace camera_clip, T shadow_distance,
+                                                 Light<T> const& light, int width, int height, Aabb<T> const& casters,
+                                                 SampleSplitOptions<T> const& splits,
+                                                 SampleFitOptions<T> const& options,
+                                                 BiasOptions<T> const& bias = {}) noexcept {
+    static_assert(std::numeric_limits<T>::digits == 24, "shaders compute in float");
     GpuSampleFit fit;
     bool const cut = all_finite(&shadow_distance, 1) && shadow_distance > 0.0f;
-    float const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
-    SampleRays<float> const rays = sample_rays(camera, light, width, height);
-    DepthCode<float> const code = depth_code(camera, camera_clip);
+    T const z_far = cut && shadow_distance < camera.z_far ? shadow_distance : camera.z_far;
+    SampleRays<T> const rays = sample_rays(camera, light, width, height);
+    DepthCode<T> const code = depth_code(camera, camera_clip);
     Faults const faults = faults_of_margin(options.map_size, options.margin_texels);
     bool const usable = rays.usable && !no_depths(camera.z_near, z_far).faults.any() && all_finite(casters) &&
                         !is_empty(casters) && !faults.has(Fault::not_finite) && !faults.has(Fault::map_too_small);
     if (!usable) return fit;
 
-    float const size = static_cast<float>(options.map_size);
-    float const usable_size = usable_texels(options.map_size, options.margin_texels);
-    constexpr float eps = std::numeric_limits<float>::epsilon();
+    T const size = static_cast<T>(options.map_size);
+    T const usable_size = usable_texels(options.map_size, options.margin_texels);
+    constexpr T eps = std::numeric_limits<T>::epsilon();
     Vec4<float> inverse_along(0.0f);
     for (int k = 0; k < 3; ++k)
-        if (std::abs(rays.basis.depth[k]) > detail::least_along<float>) inverse_along[k] = 1.0f / rays.basis.depth[k];
+        if (std::abs(rays.basis.depth[k]) > detail::least_along<T>) inverse_along[k] = 1.0f / rays.basis.depth[k];
     inverse_along.w = splits.blend > 0.0f ? (splits.blend < 1.0f ? splits.blend : 1.0f) : 0.0f;
     fit.basis_x = Vec4<float>(rays.basis.x, camera.z_near);
     fit.basis_y = Vec4<float>(rays.basis.y, z_far);
@@ -9884,14 +10409,14 @@ struct SampleSplitOptions {
     fit.right = Vec4<float>(rays.right, 1.0f / (usable_size - 1.0f) * (1.0f + 4.0f * eps));
     fit.up = Vec4<float>(rays.up, code.sky);
     fit.first_step = Vec4<float>(rays.first.x, rays.first.y, rays.step.x, rays.step.y);
-    Vec3<float> const farthest(detail::farthest_metres<float>);
-    Aabb<float> const reached = intersect(casters, Aabb<float>{-farthest, farthest});
+    Vec3<T> const farthest(detail::farthest_metres<T>);
+    Aabb<T> const reached = intersect(casters, Aabb<T>{-farthest, farthest});
     fit.casters_lo = Vec4<float>(reached.lo, 0.0f);
     fit.casters_hi = Vec4<float>(reached.hi, 0.0f);
     fit.depth_code = Vec4<float>(code.num_scale, code.num_offset, code.den_scale, code.den_offset);
     fit.bias = Vec4<float>(detail::option(bias.flat_texels, 0.0f), detail::option(bias.texels, 0.0f),
                            detail::option(bias.steepest, 20.0f), detail::option(bias.depth_step, 0.0f));
-    fit.clip_from_canonical = clip_from_canonical<float>(options.clip);
+    fit.clip_from_canonical = clip_from_canonical<T>(options.clip);
     fit.width = width;
     fit.height = height;
     fit.count = splits.count < 0 ? 0 : (splits.count > max_splits ? max_splits : splits.count);
@@ -10154,6 +10679,7 @@ struct PlainLanes {
     [[nodiscard]] static PlainLanes load(From const* from) noexcept {
         return each([from](int k) { return static_cast<T>(from[k]); });
     }
+    [[nodiscard]] static PlainLanes narrow(Wide const& wide) noexcept { return load(wide.lane); }
     void store(T* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = lane[k];
     }
@@ -10228,31 +10754,21 @@ struct PlainLanes {
         for (int axis = 0; axis < 3; ++axis)
             components[axis] = each([&row, axis](int k) { return row[k / 4][3 * (k % 4) + axis]; });
     }
-    // Lane k: from[four[k % 4]], of sixteen numbers.
-    [[nodiscard]] static PlainLanes picked(T const* from, std::uint32_t const* four) noexcept {
-        return each([from, four](int k) { return from[four[k % 4]]; });
-    }
-    // Lane k: four[k / 4].
-    [[nodiscard]] static PlainLanes quadrupled(T const* four) noexcept {
-        return each([four](int k) { return four[k / 4]; });
+    // Lane k: the three numbers at at(k).
+    template <class At>
+    static void points(At const& at, PlainLanes (&xyz)[3]) noexcept {
+        for (int axis = 0; axis < 3; ++axis) xyz[axis] = each([&at, axis](int k) { return at(k)[axis]; });
     }
     // From 0 to 255, what is beyond them at the nearer end, without the fraction.
     void store_bytes(unsigned char* to) const noexcept {
         for (int k = 0; k < lane_count; ++k) to[k] = detail::byte_of(lane[k]);
     }
-    // Bit k: (keys[i] - base[i]) * gain[i] is no less than byte 16 i + k of `bytes` for i from 0 to 3, and than byte k
-    // of `more` for 4; none where one is negative. Eight keys, bases and gains can be read.
-    [[nodiscard]] static std::uint32_t reached(T const* keys, T const* base, T const* gain, unsigned char const* bytes,
-                                               unsigned char const* more) noexcept {
-        std::uint32_t bits = (1u << lane_count) - 1u;
-        for (int i = 0; i < 5; ++i) {
-            T const value = (keys[i] - base[i]) * gain[i];
-            if (value < T(0)) return 0;
-            unsigned const bound = detail::byte_of(value);
-            unsigned char const* const from = i < 4 ? bytes + i * lane_count : more;
-            for (int k = 0; k < lane_count; ++k) bits &= ~((from[k] > bound ? 1u : 0u) << k);
-        }
-        return bits;
+    [[nodiscard]] static PlainLanes load_bytes(unsigned char const* from) noexcept {
+        return each([from](int k) { return static_cast<T>(from[k]); });
+    }
+    // Whole numbers from 0 to 2^31 - 1, without the fraction.
+    void store_words(std::uint32_t* to) const noexcept {
+        for (int k = 0; k < lane_count; ++k) to[k] = static_cast<std::uint32_t>(static_cast<std::int32_t>(lane[k]));
     }
     // Lanes of a where the bit is set, else those of b.
     friend PlainLanes chosen(std::uint32_t bits, PlainLanes const& a, PlainLanes const& b) noexcept {
@@ -10300,6 +10816,13 @@ struct Avx512Doubles {
     }
     [[nodiscard]] static Avx512Doubles load(float const* from) noexcept {
         return {_mm512_cvtps_pd(_mm256_loadu_ps(from)), _mm512_cvtps_pd(_mm256_loadu_ps(from + 8))};
+    }
+    // See PlainLanes: rows.
+    [[nodiscard]] static Avx512Doubles rows(double const* const (&row)[4]) noexcept {
+        auto const two = [](double const* low, double const* high) {
+            return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+        };
+        return {two(row[0], row[1]), two(row[2], row[3])};
     }
     void store(double* to) const noexcept {
         _mm512_storeu_pd(to, first);
@@ -10388,35 +10911,40 @@ struct Avx512Lanes {
         components[1] = {_mm512_shuffle_ps(y0, y1, _MM_SHUFFLE(2, 0, 2, 0))};
         components[2] = {_mm512_shuffle_ps(z, c, _MM_SHUFFLE(3, 0, 2, 0))};
     }
-    [[nodiscard]] static Avx512Lanes picked(float const* from, std::uint32_t const* four) noexcept {
-        __m512i const place = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<__m128i const*>(four)));
-        return {_mm512_permutexvar_ps(place, _mm512_loadu_ps(from))};
-    }
-    [[nodiscard]] static Avx512Lanes quadrupled(float const* four) noexcept {
-        __m512i const place = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
-        return {_mm512_permutexvar_ps(place, _mm512_castps128_ps512(_mm_loadu_ps(four)))};
+    template <class At>
+    static void points(At const& at, Avx512Lanes (&xyz)[3]) noexcept {
+        auto const four = [&at](int k) {
+            auto const three = [&at](int lane) {
+                float const* const from = at(lane);
+                __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(from)));
+                return _mm_insert_ps(xy, _mm_load_ss(from + 2), 0x20);
+            };
+            __m256 const low = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k)), three(k + 4), 1);
+            __m256 const high = _mm256_insertf128_ps(_mm256_castps128_ps256(three(k + 8)), three(k + 12), 1);
+            return _mm512_castpd_ps(
+                _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+        };
+        auto const pairs_low = [](__m512 a, __m512 b) { return _mm512_castps_pd(_mm512_unpacklo_ps(a, b)); };
+        auto const pairs_high = [](__m512 a, __m512 b) { return _mm512_castps_pd(_mm512_unpackhi_ps(a, b)); };
+        __m512 const a = four(0), b = four(1), c = four(2), d = four(3);
+        xyz[0] = {_mm512_castpd_ps(_mm512_unpacklo_pd(pairs_low(a, b), pairs_low(c, d)))};
+        xyz[1] = {_mm512_castpd_ps(_mm512_unpackhi_pd(pairs_low(a, b), pairs_low(c, d)))};
+        xyz[2] = {_mm512_castpd_ps(_mm512_unpacklo_pd(pairs_high(a, b), pairs_high(c, d)))};
     }
     void store_bytes(unsigned char* to) const noexcept {
         __m512 const inside = _mm512_min_ps(_mm512_max_ps(lanes, _mm512_setzero_ps()), _mm512_set1_ps(255.0f));
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_cvtepi32_epi8(_mm512_cvttps_epi32(inside)));
     }
-    [[nodiscard]] static std::uint32_t reached(float const* keys, float const* base, float const* gain,
-                                               unsigned char const* bytes, unsigned char const* more) noexcept {
-        __m256 const value =
-            _mm256_mul_ps(_mm256_sub_ps(_mm256_loadu_ps(keys), _mm256_loadu_ps(base)), _mm256_loadu_ps(gain));
-        // The second operand where the first is NaN.
-        __m256i const bound = _mm256_cvttps_epi32(_mm256_min_ps(value, _mm256_set1_ps(255.0f)));
-        unsigned const beyond = _mm256_cmp_ps_mask(value, _mm256_setzero_ps(), _CMP_LT_OQ) & 0x1fu;
-        __m512i const each =
-            _mm512_set_epi32(0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x0c0c0c0c, 0x08080808, 0x08080808, 0x08080808,
-                             0x08080808, 0x04040404, 0x04040404, 0x04040404, 0x04040404, 0, 0, 0, 0);
-        __m512i const bounds = _mm512_shuffle_epi8(_mm512_broadcast_i32x4(_mm256_castsi256_si128(bound)), each);
-        __m128i const last = _mm_shuffle_epi8(_mm256_extracti128_si256(bound, 1), _mm_setzero_si128());
-        std::uint64_t const four = _mm512_cmple_epu8_mask(_mm512_loadu_si512(bytes), bounds);
-        auto const two = static_cast<std::uint32_t>(four & four >> 32);
-        std::uint32_t const fifth = _mm_cmple_epu8_mask(_mm_loadu_si128(reinterpret_cast<__m128i const*>(more)), last);
-        return beyond != 0 ? 0u : two & two >> 16 & fifth;
+    [[nodiscard]] static Avx512Lanes narrow(Wide const& wide) noexcept {
+        __m256 const low = _mm512_cvtpd_ps(wide.first), high = _mm512_cvtpd_ps(wide.second);
+        return {_mm512_castpd_ps(
+            _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1))};
     }
+    [[nodiscard]] static Avx512Lanes load_bytes(unsigned char const* from) noexcept {
+        __m128i const bytes = _mm_loadu_si128(reinterpret_cast<__m128i const*>(from));
+        return {_mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(bytes))};
+    }
+    void store_words(std::uint32_t* to) const noexcept { _mm512_storeu_si512(to, _mm512_cvttps_epi32(lanes)); }
 
 private:
     // Four numbers of each row.
@@ -10516,18 +11044,24 @@ struct Avx2Lanes {
         halves(row[0], row[1], components[0].first, components[1].first, components[2].first);
         halves(row[2], row[3], components[0].second, components[1].second, components[2].second);
     }
-    [[nodiscard]] static Avx2Lanes picked(float const* from, std::uint32_t const* four) noexcept {
-        __m256i const place = _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<__m128i const*>(four)));
-        __m256 const low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), place);
-        __m256 const high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from + 8), place);
-        // Bit 3 of a place, as the sign.
-        __m256 const both = _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(place, 28)));
-        return {both, both};
-    }
-    [[nodiscard]] static Avx2Lanes quadrupled(float const* four) noexcept {
-        __m256 const all_four = _mm256_castps128_ps256(_mm_loadu_ps(four));
-        return {_mm256_permutevar8x32_ps(all_four, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1)),
-                _mm256_permutevar8x32_ps(all_four, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3))};
+    template <class At>
+    static void points(At const& at, Avx2Lanes (&xyz)[3]) noexcept {
+        auto const eight = [&at](int k, __m256& x, __m256& y, __m256& z) {
+            auto const two = [&at](int lane) {
+                auto const three = [](float const* from) {
+                    __m128 const xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<__m128i const*>(from)));
+                    return _mm_insert_ps(xy, _mm_load_ss(from + 2), 0x20);
+                };
+                return _mm256_set_m128(three(at(lane + 4)), three(at(lane)));
+            };
+            __m256 const a = two(k), b = two(k + 1), c = two(k + 2), d = two(k + 3);
+            __m256 const ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+            x = _mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(1, 0, 1, 0));
+            y = _mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(3, 2, 3, 2));
+            z = _mm256_shuffle_ps(_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d), _MM_SHUFFLE(1, 0, 1, 0));
+        };
+        eight(0, xyz[0].first, xyz[1].first, xyz[2].first);
+        eight(8, xyz[0].second, xyz[1].second, xyz[2].second);
     }
     void store_bytes(unsigned char* to) const noexcept {
         auto const inside = [](__m256 eight) {
@@ -10539,29 +11073,20 @@ struct Avx2Lanes {
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
                          _mm_packus_epi16(_mm256_castsi256_si128(ordered), _mm256_extracti128_si256(ordered, 1)));
     }
-    [[nodiscard]] static std::uint32_t reached(float const* keys, float const* base, float const* gain,
-                                               unsigned char const* bytes, unsigned char const* more) noexcept {
-        __m256 const value =
-            _mm256_mul_ps(_mm256_sub_ps(_mm256_loadu_ps(keys), _mm256_loadu_ps(base)), _mm256_loadu_ps(gain));
-        // The second operand where the first is NaN.
-        __m256i const bound = _mm256_cvttps_epi32(_mm256_min_ps(value, _mm256_set1_ps(255.0f)));
-        int const beyond = _mm256_movemask_ps(_mm256_cmp_ps(value, _mm256_setzero_ps(), _CMP_LT_OQ)) & 0x1f;
-        __m256i const four = _mm256_broadcastsi128_si256(_mm256_castsi256_si128(bound));
-        auto const at_most = [](unsigned char const* from, __m256i limit) {
-            __m256i const here = _mm256_loadu_si256(reinterpret_cast<__m256i const*>(from));
-            return static_cast<std::uint32_t>(
-                _mm256_movemask_epi8(_mm256_cmpeq_epi8(_mm256_max_epu8(here, limit), limit)));
+    [[nodiscard]] static Avx2Lanes narrow(Wide const& wide) noexcept {
+        auto const four = [&wide](int k) { return _mm256_cvtpd_ps(_mm256_loadu_pd(wide.lane + k)); };
+        return {_mm256_set_m128(four(4), four(0)), _mm256_set_m128(four(12), four(8))};
+    }
+    [[nodiscard]] static Avx2Lanes load_bytes(unsigned char const* from) noexcept {
+        auto const eight = [](unsigned char const* bytes) {
+            __m128i const here = _mm_loadl_epi64(reinterpret_cast<__m128i const*>(bytes));
+            return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(here));
         };
-        __m256i const x = _mm256_setr_epi64x(0, 0, 0x0404040404040404, 0x0404040404040404);
-        __m256i const y =
-            _mm256_setr_epi64x(0x0808080808080808, 0x0808080808080808, 0x0c0c0c0c0c0c0c0c, 0x0c0c0c0c0c0c0c0c);
-        std::uint32_t const two =
-            at_most(bytes, _mm256_shuffle_epi8(four, x)) & at_most(bytes + 32, _mm256_shuffle_epi8(four, y));
-        __m128i const last = _mm_shuffle_epi8(_mm256_extracti128_si256(bound, 1), _mm_setzero_si128());
-        __m128i const here = _mm_loadu_si128(reinterpret_cast<__m128i const*>(more));
-        auto const fifth =
-            static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_max_epu8(here, last), last)));
-        return beyond != 0 ? 0u : two & two >> 16 & fifth;
+        return {eight(from), eight(from + 8)};
+    }
+    void store_words(std::uint32_t* to) const noexcept {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_cvttps_epi32(first));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + 8), _mm256_cvttps_epi32(second));
     }
 
 private:
@@ -10613,6 +11138,15 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T with_sign_of(T magnitude, T sign) noexcept {
     return std::copysign(magnitude, sign);
+}
+
+// Asks for a line of the caches before it is needed, where the machine can be told.
+inline void fetch_soon(void const* line) noexcept {
+#if defined(__GNUC__)
+    __builtin_prefetch(line);
+#else
+    static_cast<void>(line);
+#endif
 }
 
 template <class T>
@@ -10839,6 +11373,20 @@ template <class Lanes, class T = typename Lanes::Scalar>
     return half(0) | half(lane_count) << lane_count;
 }
 
+// The samples that all four hold.
+template <class Lanes, class T = typename Lanes::Scalar>
+[[nodiscard]] inline std::uint32_t half_planes_mask(PixelLine<T> const (&lines)[4]) noexcept {
+    Lanes const zero = Lanes::all(T(0));
+    std::uint32_t low = (1u << lane_count) - 1u, high = low;
+    for (PixelLine<T> const& line : lines) {
+        Lanes const c = Lanes::all(line.c), x = Lanes::all(line.x), y = Lanes::all(line.y);
+        PixelSamples<T> const& at = pixel_samples<T>;
+        low &= at_least(fused(y, Lanes::load(at.v), fused(x, Lanes::load(at.u), c)), zero);
+        high &= at_least(fused(y, Lanes::load(at.v + lane_count), fused(x, Lanes::load(at.u + lane_count), c)), zero);
+    }
+    return low | high << lane_count;
+}
+
 inline constexpr int table_steps = 32;  // of angle, and of radius
 
 // Half a step of radius, and half a step of angle where a radius is longest: sqrt(1/2) (1 / 64 + pi / 32).
@@ -10849,14 +11397,15 @@ struct HalfPlaneTable {
     std::array<std::uint32_t, table_steps * table_steps> masks;
 };
 
+template <class T = double>
 [[nodiscard]] inline HalfPlaneTable half_plane_table() noexcept {
     HalfPlaneTable table{};
     double const step = 6.283185307179586 / table_steps, reach = 0.7071067811865476 / table_steps;
     for (int k = 0; k < table_steps; ++k)
         for (int j = 0; j < table_steps; ++j) {
             double const x = std::cos((k + 0.5) * step), y = std::sin((k + 0.5) * step);
-            PixelLine<double> const line{-(x + y) / 2.0 - (j + 0.5) * reach, x, y};
-            table.masks[static_cast<std::size_t>(k * table_steps + j)] = half_plane_mask<PlainLanes<double>>(line);
+            PixelLine<T> const line{-(x + y) / 2.0 - (j + 0.5) * reach, x, y};
+            table.masks[static_cast<std::size_t>(k * table_steps + j)] = half_plane_mask<PlainLanes<T>>(line);
         }
     return table;
 }
@@ -10889,8 +11438,9 @@ template <class T>
 //
 // What the irregular z-buffer is made of, and the storage that holds it: plain arrays of the caller's.
 //
-// Memory, in floats, with the capacity that storage_for takes by itself: 51 bytes a pixel, 29 a texel of the grid, 1
-// MiB for sorting triangles; nothing for each triangle. A capacity known from the frame before spares a fifth of it.
+// Memory, in floats, with the capacity that storage_for takes by itself: 64 bytes a pixel, 12 of them for sorting
+// triangles, and 37 a texel of the grid; nothing for each triangle. A capacity known from the frame before spares a
+// fifth of it.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -10964,34 +11514,29 @@ struct IrregularBuffer {
     std::uint32_t level_first[most_levels]{};  // place in `first` of the levels from 1 on
     std::uint32_t levels_used = 0;             // bit l: level l has a node
 
-    // Tiles: sixteen pixels each, four rows of four.
-    T* quad = nullptr;                // q less the tile's, q_x, q_y: three times sixteen
-    T* range = nullptr;               // of its pixels' keys: eight bases, of which five count; eight gains likewise
-    T* tile_q = nullptr;              // near the q of its pixels: what differs from it is known to far more digits
-    std::uint32_t* mask = nullptr;    // sixteen
-    std::uint32_t* bounds = nullptr;  // four keys of each pixel, a byte each; see tile.hpp
-    std::uint32_t* beyond = nullptr;  // the fifth
-    std::uint32_t* alive = nullptr;   // bit k: light may reach pixel k, and a sample of it is not yet covered
+    // Tiles: sixteen pixels each, four rows of four; tile_scalars and tile_words of each, see below.
+    T* surface = nullptr;
+    std::uint32_t* state = nullptr;
 
-    // Nodes, sorted by list: bounds in texels of the finest level, the far end of the depths, the tile.
-    T* lo_x = nullptr;
-    T* hi_x = nullptr;
-    T* lo_y = nullptr;
-    T* hi_y = nullptr;
-    T* depth = nullptr;
+    // Nodes, sorted by list: lo x, hi x, lo y, hi y in texels of the finest level, the far end of the depths; the tile.
+    T* bounds = nullptr;
     std::uint32_t* tile = nullptr;
     std::uint32_t* first = nullptr;  // node of each list, one more at the end
+    std::uint32_t list_count = 0;
 
     // Texels of the finest level.
     T* texel_depth = nullptr;                 // far end over the nodes that touch it
+    T* block_depth = nullptr;                 // the same over 2 x 2 texels, of which this is the first
     std::uint32_t* texel_levels = nullptr;    // bit l: level l has a node here
     std::uint32_t* texel_lists = nullptr;     // place in `first`: nodes too wide for its divisions, then the divisions
     std::uint32_t* texel_division = nullptr;  // k: it is divided into 2^k x 2^k; in the making, how many nodes touch it
 
-    // For trace: triangles are put in order of their texels, a block at a time.
-    std::uint32_t* block_texel = nullptr;
-    std::uint32_t* block_order = nullptr;
-    std::uint32_t* block_count = nullptr;
+    // For trace: triangles are put in the order of the lists, a block at a time.
+    std::uint32_t* caster = nullptr;  // and those behind it, caster_room each
+    std::uint32_t* caster_list = nullptr;
+    std::uint32_t* caster_order = nullptr;
+    std::uint32_t* caster_end = nullptr;  // of each list
+    std::uint32_t caster_room = 0;
 
     // Over all nodes.
     T least_x = T(0), most_x = T(0), least_y = T(0), most_y = T(0), most_depth = T(0), least_w = T(0), most_w = T(0);
@@ -11005,7 +11550,13 @@ struct IrregularBuffer {
     return ((map_size - 1) >> level_shift * level) + 1;
 }
 
-inline constexpr int caster_block = 1 << 17;
+// What is kept of a tile. Its scalars: the q of each pixel less the tile's, q_x, q_y; then the tile's q, near those of
+// its pixels, so that the differences are known to far more digits; and for each of the five keys of tile.hpp, where
+// its bytes begin and how long a step of theirs is. Its words: four keys of each pixel, a byte each, and the fifth;
+// which pixels light may reach that have a sample not yet covered, a bit each; the masks.
+inline constexpr int tile_scalars = 64, tile_words = 48;
+inline constexpr int tile_q_at = 48, key_base_at = 49, key_step_at = 54;
+inline constexpr int alive_at = 20, mask_at = 32;
 
 // Tiles begin where a line of the caches does: what may be left out before the first, in words and in scalars.
 inline constexpr std::size_t cache_line = 64;
@@ -11025,11 +11576,10 @@ inline constexpr std::size_t line_slack = cache_line / 4 - 1;
         side = level_size(map_size, level);
         coarser += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     }
-    // Behind each array of nodes sixteen more can be read. Every four nodes that touch a texel pay for a division.
-    std::size_t const nodes = 4 * parts + lane_count;
-    return {(4 * lane_count + 1) * tiles + 5 * nodes + 5 * parts + texels + line_slack,
-            (2 * lane_count + lane_count / 4 + 1) * tiles + nodes + 3 * parts + (2 * texels + coarser + parts + 2) +
-                4 * texels + 2 + 2 * caster_block + line_slack};
+    // Every four nodes that touch a texel pay for a division. As many triangles as pixels are put in order at once.
+    std::size_t const nodes = 4 * parts, lists = 2 * texels + coarser + parts + 2;
+    return {tile_scalars * tiles + 5 * nodes + 5 * parts + 2 * texels + line_slack,
+            tile_words * tiles + nodes + 2 * lists + 3 * texels + 3 * lane_count * tiles + line_slack};
 }
 
 namespace detail {
@@ -11063,13 +11613,15 @@ template <class T>
         storage.size.words < least.words)
         return parts;
     std::size_t const by_scalars = (storage.size.scalars - least.scalars) / 25;
-    std::size_t const by_words = (storage.size.words - least.words) / 8;
+    std::size_t const by_words = (storage.size.words - least.words) / 6;
     std::size_t const capacity = 1 + (by_scalars < by_words ? by_scalars : by_words);
-    // Nodes are counted with 32 bits, tiles with 28.
-    parts.capacity = static_cast<std::uint32_t>(capacity < 1u << 28 ? capacity : 1u << 28);
+    // There are no more parts than pixels. Nodes are counted with 32 bits, tiles with 28.
     auto const tiles = static_cast<std::size_t>(buffer.tile_count);
+    std::size_t const most = lane_count * tiles < 1u << 28 ? lane_count * tiles : 1u << 28;
+    parts.capacity = static_cast<std::uint32_t>(capacity < most ? capacity : most);
     auto const texels = static_cast<std::size_t>(buffer.map_size) * static_cast<std::size_t>(buffer.map_size);
-    std::size_t const nodes = 4 * std::size_t{parts.capacity} + lane_count;
+    std::size_t const nodes = 4 * std::size_t{parts.capacity};
+    buffer.caster_room = static_cast<std::uint32_t>(lane_count * tiles);
     T* scalars = storage.scalars;
     std::uint32_t* words = storage.words;
     auto const take = [](auto*& from, std::size_t count) {
@@ -11079,25 +11631,20 @@ template <class T>
     };
     scalars += scalars_to_line(scalars);
     words += scalars_to_line(words);
-    buffer.quad = take(scalars, 3 * lane_count * tiles);
-    buffer.range = take(scalars, lane_count * tiles);
-    buffer.tile_q = take(scalars, tiles);
-    for (T** array : {&buffer.lo_x, &buffer.hi_x, &buffer.lo_y, &buffer.hi_y, &buffer.depth})
-        *array = take(scalars, nodes);
+    buffer.surface = take(scalars, tile_scalars * tiles);
+    buffer.bounds = take(scalars, 5 * nodes);
     buffer.texel_depth = take(scalars, texels);
+    buffer.block_depth = take(scalars, texels);
     parts.bounds = scalars;
-    buffer.mask = take(words, lane_count * tiles);
-    buffer.bounds = take(words, lane_count * tiles);
-    buffer.beyond = take(words, lane_count / 4 * tiles);
-    buffer.alive = take(words, tiles);
+    buffer.state = take(words, tile_words * tiles);
+    for (std::uint32_t** array : {&buffer.caster, &buffer.caster_list, &buffer.caster_order})
+        *array = take(words, buffer.caster_room);
     buffer.tile = take(words, nodes);
     for (std::uint32_t** array : {&buffer.texel_levels, &buffer.texel_lists, &buffer.texel_division})
         *array = take(words, texels);
-    buffer.block_count = take(words, texels + 2);
-    buffer.block_texel = take(words, caster_block);
-    buffer.block_order = take(words, caster_block);
-    parts.place = take(words, 3 * std::size_t{parts.capacity});
-    buffer.first = words;
+    parts.place = buffer.caster;  // there are no casters yet
+    buffer.first = take(words, (static_cast<std::size_t>(storage.words + storage.size.words - words)) / 2);
+    buffer.caster_end = words;
     std::memset(buffer.texel_levels, 0, texels * sizeof(std::uint32_t));
     std::memset(buffer.texel_division, 0, texels * sizeof(std::uint32_t));
     for (std::size_t texel = 0; texel < texels; ++texel) buffer.texel_depth[texel] = std::numeric_limits<T>::lowest();
@@ -11199,6 +11746,10 @@ inline void for_each_list(IrregularBuffer<T> const& buffer, std::uint32_t const*
             auto const k = static_cast<int>(buffer.texel_division[texel]);
             PlaceRange const in = divisions_of(places, x, y, k);
             std::uint32_t const first = buffer.texel_lists[texel];
+            if (k == 0) {
+                list(first + 1);
+                continue;
+            }
             // More than four divisions: listed once, for all triangles of the texel.
             if (in.x1 - in.x0 > 1 || in.y1 - in.y0 > 1)
                 list(first);
@@ -11216,7 +11767,7 @@ template <class T>
     for (std::uint32_t texel = 0; texel < texels; ++texel) {
         std::uint32_t const nodes = buffer.texel_division[texel];
         std::uint32_t k = 0;
-        while (k < most_divisions && (std::uint32_t(16) << 2 * k) <= nodes) ++k;
+        while (k < most_divisions && (std::uint32_t(64) << 2 * k) <= nodes) ++k;
         buffer.texel_division[texel] = k;
         buffer.texel_lists[texel] = lists;
         lists += 1 + (1u << 2 * k);
@@ -11229,10 +11780,23 @@ template <class T>
     return lists;
 }
 
+template <class T>
+inline void find_block_depths(IrregularBuffer<T>& buffer) noexcept {
+    int const size = buffer.map_size;
+    auto const deeper = [](T a, T b) { return a > b ? a : b; };
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            T const* const row = buffer.texel_depth + y * size;
+            T const* const next = y + 1 < size ? row + size : row;
+            int const right = x + 1 < size ? x + 1 : x;
+            buffer.block_depth[y * size + x] = deeper(deeper(row[x], row[right]), deeper(next[x], next[right]));
+        }
+}
+
 // False where the nodes are more than four for each part that there is room for.
 template <class T>
 [[nodiscard]] inline bool sort_parts(IrregularBuffer<T>& buffer, Parts<T> const& parts) noexcept {
-    std::uint32_t const lists = divide_texels(buffer);
+    std::uint32_t const lists = buffer.list_count = divide_texels(buffer);
     std::memset(buffer.first, 0, (lists + 2) * sizeof(std::uint32_t));
     std::uint32_t* const end = buffer.first + 1;
     ListCounts& counts = buffer.counts;
@@ -11245,16 +11809,13 @@ template <class T>
         end[list] = counts.nodes += length;
     }
     if (counts.nodes > 4 * parts.capacity) return false;
+    find_block_depths(buffer);
     for (std::uint32_t i = 0; i < counts.parts; ++i) {
         T const* const bounds = parts.bounds + 5 * i;
         std::uint32_t const tile = parts.place[3 * i] & 0x0fffffffu;
         for_each_list(buffer, parts.place + 3 * i, [&](std::uint32_t list) {
             std::uint32_t const node = end[list]++;
-            buffer.lo_x[node] = bounds[0];
-            buffer.hi_x[node] = bounds[1];
-            buffer.lo_y[node] = bounds[2];
-            buffer.hi_y[node] = bounds[3];
-            buffer.depth[node] = bounds[4];
+            std::memcpy(buffer.bounds + 5 * std::size_t{node}, bounds, 5 * sizeof(T));
             buffer.tile[node] = tile;
         });
     }
@@ -11273,7 +11834,7 @@ template <class T>
 //
 // The bounds of a pixel are five keys, (lo x, -hi x, lo y, -hi y, -far depth). A caster with the keys (hi x, -lo x,
 // hi y, -lo y, -near depth) can take light from it only if none of its keys is less. The pixels' keys are kept in a
-// byte each, from 0 to 255 over the tile, rounded by the same monotone formula as the caster's: none is missed.
+// byte each, in steps of a 255th of the tile's range, a step less than they are: more than rounding can add.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -11295,6 +11856,7 @@ struct TileKernel {
         std::uint32_t alive = 0;
         std::uint32_t away = 0;
         Lanes lo_x, hi_x, lo_y, hi_y, depth, lo_w, hi_w;
+        T bounds[5];  // of all that are alive: lo x, hi x, lo y, hi y, the far end of the depths
     };
 
     struct Surface {
@@ -11314,8 +11876,12 @@ struct TileKernel {
             at[j] = static_cast<std::size_t>(row + (j < rows ? j : 0)) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(column);
         if (columns >= tile_side && normal_stride == 3 && (!placed || position_stride == 3)) {
+            // Written out: as a loop it is made a vector of addresses.
             auto const from = [&at](T const* array, std::size_t stride, T const*(&row_of)[tile_side]) {
-                for (int j = 0; j < tile_side; ++j) row_of[j] = array + at[j] * stride;
+                row_of[0] = array + at[0] * stride;
+                row_of[1] = array + at[1] * stride;
+                row_of[2] = array + at[2] * stride;
+                row_of[3] = array + at[3] * stride;
             };
             T const* row_of[tile_side];
             from(receivers.normal, 3, row_of);
@@ -11453,9 +12019,9 @@ struct TileKernel {
         seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
 
         keep_bounds(tile, seen);
-        T* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
+        T* const quads = buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
         // The division once more, without its rounding.
-        T const tile_q = buffer.tile_q[tile] = middle_of(seen.alive, q);
+        T const tile_q = quads[tile_q_at] = middle_of(seen.alive, q);
         T rest[lane_count];
         (flat ? middle : chosen(seen.alive, depth, one)).store(rest);
         for (T& r : rest) r = static_cast<T>((flat ? Wider<T>(r) : Wider<T>(1) / Wider<T>(r)) - Wider<T>(tile_q));
@@ -11465,23 +12031,23 @@ struct TileKernel {
         chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
     }
 
-    void keep_bounds(int tile, Seen const& seen) const noexcept {
+    void keep_bounds(int tile, Seen& seen) const noexcept {
         Lanes const zero = Lanes::all(T(0)), huge = Lanes::all(std::numeric_limits<T>::max());
         Lanes const keys[5] = {seen.lo_x, zero - seen.hi_x, seen.lo_y, zero - seen.hi_y, zero - seen.depth};
-        auto const index = static_cast<std::size_t>(tile);
-        T* const base = buffer.range + index * lane_count;
-        T* const gain = base + lane_count / 2;
-        auto* const bounds = reinterpret_cast<unsigned char*>(buffer.bounds + index * lane_count);
-        auto* const beyond = reinterpret_cast<unsigned char*>(buffer.beyond + index * lane_count / 4);
-        for (int i = 0; i < lane_count; ++i) base[i] = T(0);
+        T* const base = buffer.surface + tile_scalars * static_cast<std::size_t>(tile) + key_base_at;
+        T* const step = base + (key_step_at - key_base_at);
+        auto* const bytes =
+            reinterpret_cast<unsigned char*>(buffer.state + tile_words * static_cast<std::size_t>(tile));
         for (int i = 0; i < 5; ++i) {
             base[i] = smallest(chosen(seen.alive, keys[i], huge));
             T const span = largest(chosen(seen.alive, keys[i], zero - huge)) - base[i];
-            // No range to speak of: all bytes are 0, and no caster's is less.
-            bool const ranged = span > T(1e-30) && span < T(1e30);
-            if (ranged) gain[i] = T(255) / span;
-            Lanes const places = (keys[i] - Lanes::all(base[i])) * Lanes::all(gain[i]);
-            chosen(ranged ? seen.alive : 0u, places, zero).store_bytes(i < 4 ? bounds + i * lane_count : beyond);
+            seen.bounds[i] = i == 0 || i == 2 ? base[i] : -base[i];
+            // No range to speak of: all are as the least of them.
+            bool const ranged = span > std::abs(base[i]) * (T(1) / T(1 << 14)) && span > T(1e-30) && span < T(1e30);
+            step[i] = ranged ? span / T(255) : T(0);
+            Lanes const gain = Lanes::all(ranged ? T(255) / span : T(0));
+            Lanes const steps = (keys[i] - Lanes::all(base[i])) * gain - Lanes::all(T(1));
+            chosen(ranged ? seen.alive : 0u, steps, zero).store_bytes(bytes + i * lane_count);
         }
     }
 
@@ -11494,10 +12060,16 @@ struct TileKernel {
         T const bounds[5] = {smallest(chosen(part, seen.lo_x, huge)), largest(chosen(part, seen.hi_x, low)),
                              smallest(chosen(part, seen.lo_y, huge)), largest(chosen(part, seen.hi_y, low)),
                              largest(chosen(part, seen.depth, low))};
+        insert(parts, tile, seen, part, pixels_across, bounds);
+    }
+
+    void insert(Parts<T> const& parts, int tile, Seen const& seen, std::uint32_t part, int pixels_across,
+                T const (&bounds)[5]) const noexcept {
         if (pixels_across > 1) {
             T const width = bounds[1] - bounds[0], height = bounds[3] - bounds[2];
             T const extent = width > height ? width : height;
             if (extent > T(1)) {
+                Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
                 Lanes const each = most(seen.hi_x - seen.lo_x, seen.hi_y - seen.lo_y);
                 if (extent > largest(chosen(part, each, low)) * T(2 * pixels_across)) {
                     if (pixels_across == tile_side)
@@ -11674,14 +12246,14 @@ template <class T, class Lanes = BestLanes<T>>
     for (int tile = 0; tile < buffer.tile_count; ++tile) {
         kernel.see(tile, rect.x + tile % buffer.tiles_across * tile_side,
                    rect.y + tile / buffer.tiles_across * tile_side, seen);
-        std::uint32_t* const mask = buffer.mask + static_cast<std::size_t>(tile) * lane_count;
-        for (unsigned k = 0; k < lane_count; ++k) mask[k] = 0u - (seen.away >> k & 1u);
-        buffer.alive[tile] = seen.alive;
+        std::uint32_t* const state = buffer.state + tile_words * static_cast<std::size_t>(tile);
+        for (unsigned k = 0; k < lane_count; ++k) state[mask_at + k] = 0u - (seen.away >> k & 1u);
+        state[alive_at] = seen.alive;
         if (seen.alive == 0) continue;
         ++buffer.counts.tiles;
         least_w = least(least_w, chosen(seen.alive, seen.lo_w, huge));
         most_w = most(most_w, chosen(seen.alive, seen.hi_w, low));
-        kernel.insert(parts, tile, seen, seen.alive, tile_side);
+        kernel.insert(parts, tile, seen, seen.alive, tile_side, seen.bounds);
     }
     buffer.least_w = smallest(least_w);
     buffer.most_w = largest(most_w);
@@ -11774,20 +12346,49 @@ struct CasterKernel {
         return any;
     }
 
+    // Of triangles without indices; where there are some, neighbours share their vertices anyway.
+    void fetch(std::uint32_t triangle) const noexcept {
+        if (casters.index != nullptr) return;
+        T const* const from = casters.position + std::size_t{3} * triangle * static_cast<std::size_t>(casters.stride);
+        fetch_soon(from);
+        fetch_soon(from + 8);
+    }
+
     // `order` gives the triangles, or they follow each other from `begin` on.
     void load(std::uint32_t begin, std::uint32_t count, std::uint32_t const* order, Batch& batch) const noexcept {
-        batch.sound = 0;
+        auto const stride = static_cast<std::size_t>(casters.stride);
+        auto const keep = [&batch](int i, auto const& at) {
+            Lanes xyz[3];
+            Lanes::points(at, xyz);
+            for (int axis = 0; axis < 3; ++axis) xyz[axis].store(batch.vertex[i][axis]);
+        };
+        std::uint32_t sound = 0;
+        T const* at[3][lane_count];
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             bool ok = k < count;
-            std::size_t const triangle = !ok ? 0 : order != nullptr ? order[begin + k] : begin + k;
-            for (std::uint32_t i = 0; i < 3; ++i) {
-                std::size_t vertex = 3 * triangle + i;
-                if (casters.index != nullptr) vertex = casters.index[vertex];
-                ok = ok && vertex < casters.vertex_count;
-                T const* const p = casters.position + (ok ? vertex * static_cast<std::size_t>(casters.stride) : 0);
-                for (int axis = 0; axis < 3; ++axis) batch.vertex[i][axis][k] = p[axis];
+            std::size_t const first = std::size_t{3} * (!ok ? 0u : order != nullptr ? order[begin + k] : begin + k);
+            if (casters.index == nullptr) {
+                ok = ok && first + 2 < casters.vertex_count;
+                at[0][k] = casters.position + (ok ? first * stride : 0);
+            } else {
+                for (std::uint32_t i = 0; i < 3; ++i) {
+                    std::size_t const vertex = casters.index[first + i];
+                    bool const held = vertex < casters.vertex_count;
+                    ok = ok && held;
+                    at[i][k] = casters.position + (held ? vertex * stride : 0);
+                }
             }
-            batch.sound |= (ok ? 1u : 0u) << k;
+            sound |= (ok ? 1u : 0u) << k;
+        }
+        batch.sound = sound;
+        for (int i = 0; i < 3; ++i) {
+            if (casters.index != nullptr)
+                keep(i, [&](int k) { return at[i][k]; });
+            else
+                // Fewer than three vertices in all: the first, three times.
+                keep(i, [&at, step = casters.vertex_count < 3 ? 0 : static_cast<std::size_t>(i) * stride](int k) {
+                    return at[0][k] + step;
+                });
         }
         find(batch);
     }
@@ -11904,46 +12505,177 @@ struct CasterKernel {
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/irregular/cover.hpp ========
+// ======== shadowmath/irregular/chunk.hpp ========
 //
-// Which samples of which pixels a triangle covers. Pairs of a triangle and a tile are queued, so that what they need of
-// memory is asked for before it is used. First the pixels whose bounds are out of the triangle's reach are left out;
-// the others are held against the four planes of its shadow volume, four pixels in four lanes each; samples are looked
-// at last, in pixels that a plane crosses.
+// Triangles that are next to each other in the grid, raised to shadow volumes and searched sixteen at once: a cell of
+// the grid takes those that reach it, and a node of its list takes those that may darken its tile.
 
 namespace shadowmath {
 inline namespace v0 {
 
 namespace detail {
 
-inline void fetch_soon(void const* line) noexcept {
-#if defined(__GNUC__)
-    __builtin_prefetch(line);
-#else
-    static_cast<void>(line);
-#endif
-}
+inline constexpr std::uint32_t chunk_room = 192;
 
-// Tiles that the triangles of a batch may touch, triangle after triangle.
-struct PairQueue {
-    static constexpr std::uint32_t room = 512;
-    std::uint32_t tile[room + lane_count];
+// What a tile needs of a triangle.
+template <class T>
+struct RaisedTriangle {
+    Wider<T> x[4], y[4], a[4], b[4];  // of each of the four half spaces
+    T across[4], upward[4], by_q[4];  // x, y and b once more
+    T keys[5];                        // see tile.hpp
+};
+
+// Bounds in lanes. What is behind the last, up to sixteen, may be anything.
+template <class Lanes, class T = typename Lanes::Scalar>
+struct CasterBounds {
+    T lo_x[chunk_room + lane_count], hi_x[chunk_room + lane_count];
+    T lo_y[chunk_room + lane_count], hi_y[chunk_room + lane_count];
+    T depth[chunk_room + lane_count];  // the end nearest to the light
+    std::uint32_t slot[chunk_room + lane_count];
     std::uint32_t count = 0;
-    std::uint32_t begin[lane_count + 1];  // of each triangle
-    int triangle[lane_count];
-    int triangles = 0;
 
-    void open(int k) noexcept {
-        triangle[triangles] = k;
-        begin[triangles++] = count;
+    // Bit k: the one at `from` + k is there.
+    [[nodiscard]] std::uint32_t there(std::uint32_t from) const noexcept {
+        return count - from < lane_count ? (1u << (count - from)) - 1u : (1u << lane_count) - 1u;
     }
-    // The last triangle touched nothing.
-    void drop_empty() noexcept { triangles -= begin[triangles - 1] == count ? 1 : 0; }
-    void clear() noexcept {
-        count = 0;
-        triangles = 0;
+    // Those that may touch the rectangle, no farther from the light than `far_end`.
+    [[nodiscard]] std::uint32_t touching(std::uint32_t from, Lanes const& x0, Lanes const& x1, Lanes const& y0,
+                                         Lanes const& y1, Lanes const& far_end) const noexcept {
+        return at_least(Lanes::load(hi_x + from), x0) & at_least(x1, Lanes::load(lo_x + from)) &
+               at_least(Lanes::load(hi_y + from), y0) & at_least(y1, Lanes::load(lo_y + from)) &
+               at_least(far_end, Lanes::load(depth + from));
     }
 };
+
+// A rectangle of the grid in texels; those at its border go on without end.
+template <class T>
+struct Cell {
+    T x0, x1, y0, y1;
+};
+
+// Cell (x, y) of cells that are 2^shift places wide.
+template <class T>
+[[nodiscard]] inline Cell<T> cell_at(int x, int y, int shift, int map_size) noexcept {
+    auto const edge = [shift, last = map_size << most_divisions](int cell) {
+        int const place = cell << shift;
+        if (place <= 0) return std::numeric_limits<T>::lowest();
+        return place < last ? T(place) * (T(1) / T(1 << most_divisions)) : std::numeric_limits<T>::max();
+    };
+    return {edge(x), edge(x + 1), edge(y), edge(y + 1)};
+}
+
+// The triangles of a chunk that reach a cell. A pair of a triangle and a node is met in every cell that both touch; it
+// counts in that where the rectangle they share begins.
+template <class Lanes, class T = typename Lanes::Scalar>
+struct CellCasters {
+    CasterBounds<Lanes> bounds;
+    std::uint32_t any[chunk_room / lane_count];      // bit k: is there
+    std::uint32_t begin_x[chunk_room / lane_count];  // and begins no farther left than the cell
+    std::uint32_t begin_y[chunk_room / lane_count];  // or no lower
+
+    void take(CasterBounds<Lanes> const& from, Cell<T> const& cell, T far_end) noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        Lanes const x0 = all(cell.x0), x1 = all(cell.x1), y0 = all(cell.y0), y1 = all(cell.y1), depth = all(far_end);
+        std::uint32_t n = 0;
+        for (std::uint32_t i = 0; i < from.count; i += lane_count)
+            n += Lanes::compress(from.there(i) & from.touching(i, x0, x1, y0, y1, depth), from.slot + i,
+                                 bounds.slot + n);
+        bounds.count = n;
+        if (n == 0) return;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            std::uint32_t const slot = bounds.slot[i];
+            bounds.lo_x[i] = from.lo_x[slot];
+            bounds.hi_x[i] = from.hi_x[slot];
+            bounds.lo_y[i] = from.lo_y[slot];
+            bounds.hi_y[i] = from.hi_y[slot];
+            bounds.depth[i] = from.depth[slot];
+        }
+        for (std::uint32_t i = 0, g = 0; i < n; i += lane_count, ++g) {
+            any[g] = bounds.there(i);
+            begin_x[g] = any[g] & at_least(Lanes::load(bounds.lo_x + i), x0);
+            begin_y[g] = any[g] & at_least(Lanes::load(bounds.lo_y + i), y0);
+        }
+    }
+
+    // The slots of those that may darken a node, without gaps; sixteen more can be written.
+    [[nodiscard]] std::uint32_t find(T const* node, Cell<T> const& cell, std::uint32_t* slots) const noexcept {
+        Lanes const lo_x = Lanes::all(node[0]), hi_x = Lanes::all(node[1]), lo_y = Lanes::all(node[2]),
+                    hi_y = Lanes::all(node[3]), depth = Lanes::all(node[4]);
+        std::uint32_t const* const in_x = node[0] >= cell.x0 ? any : begin_x;
+        std::uint32_t const* const in_y = node[2] >= cell.y0 ? any : begin_y;
+        std::uint32_t n = 0;
+        for (std::uint32_t i = 0, g = 0; i < bounds.count; i += lane_count, ++g)
+            n += Lanes::compress(in_x[g] & in_y[g] & bounds.touching(i, lo_x, hi_x, lo_y, hi_y, depth), bounds.slot + i,
+                                 slots + n);
+        return n;
+    }
+};
+
+template <class Lanes, class T = typename Lanes::Scalar>
+struct CasterChunk {
+    CasterBounds<Lanes> bounds;
+    RaisedTriangle<T> raised[chunk_room];
+
+    void clear() noexcept { bounds.count = 0; }
+    [[nodiscard]] bool full() const noexcept { return bounds.count + lane_count > chunk_room; }
+
+    void add(CasterBatch<Lanes> const& batch) noexcept {
+        for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
+            int const k = lowest_bit(bits);
+            std::uint32_t const slot = bounds.count++;
+            bounds.slot[slot] = slot;
+            RaisedTriangle<T>& one = raised[slot];
+            one.keys[1] = -(bounds.lo_x[slot] = batch.bounds[0][k]);
+            one.keys[0] = bounds.hi_x[slot] = batch.bounds[1][k];
+            one.keys[3] = -(bounds.lo_y[slot] = batch.bounds[2][k]);
+            one.keys[2] = bounds.hi_y[slot] = batch.bounds[3][k];
+            one.keys[4] = -(bounds.depth[slot] = batch.depth[k]);
+            for (int i = 0; i < 4; ++i) {
+                one.across[i] = static_cast<T>(one.x[i] = batch.plane[0][i][k]);
+                one.upward[i] = static_cast<T>(one.y[i] = batch.plane[1][i][k]);
+                one.a[i] = batch.plane[2][i][k];
+                one.by_q[i] = static_cast<T>(one.b[i] = batch.plane[3][i][k]);
+            }
+        }
+    }
+
+    // What all of them together may touch, as bounds, and the end nearest to the light.
+    void together(T (&all)[5]) const noexcept {
+        Lanes const huge = Lanes::all(std::numeric_limits<T>::max());
+        Lanes const low = Lanes::all(std::numeric_limits<T>::lowest());
+        Lanes lo_x = huge, hi_x = low, lo_y = huge, hi_y = low, depth = huge;
+        for (std::uint32_t i = 0; i < bounds.count; i += lane_count) {
+            std::uint32_t const there = bounds.there(i);
+            lo_x = least(lo_x, chosen(there, Lanes::load(bounds.lo_x + i), huge));
+            hi_x = most(hi_x, chosen(there, Lanes::load(bounds.hi_x + i), low));
+            lo_y = least(lo_y, chosen(there, Lanes::load(bounds.lo_y + i), huge));
+            hi_y = most(hi_y, chosen(there, Lanes::load(bounds.hi_y + i), low));
+            depth = least(depth, chosen(there, Lanes::load(bounds.depth + i), huge));
+        }
+        all[0] = smallest(lo_x);
+        all[1] = largest(hi_x);
+        all[2] = smallest(lo_y);
+        all[3] = largest(hi_y);
+        all[4] = smallest(depth);
+    }
+};
+
+}  // namespace detail
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/irregular/cover.hpp ========
+//
+// Which samples of their tiles the triangles of a chunk cover. First the pixels whose bounds are out of a triangle's
+// reach are left out; the others are held against the four planes of its shadow volume; samples are looked at last, in
+// pixels that a plane crosses. Tiles are queued, so that what they need of memory is asked for before it is used; and
+// each step is done for all pairs of the queue before the next: a pair waits for no other, and loops are long.
+
+namespace shadowmath {
+inline namespace v0 {
+
+namespace detail {
 
 template <class Lanes, class T = typename Lanes::Scalar>
 struct CoverKernel {
@@ -11951,200 +12683,191 @@ struct CoverKernel {
     PixelFrame<Wider<T>> const& frame;
 
     using Real = Wider<T>;
-    using Batch = CasterBatch<Lanes>;
+    using Wide = typename Lanes::Wide;
 
-    static constexpr std::uint32_t ahead = 8;  // tiles
+    // Tiles that wait, and the slots of the triangles that may darken each.
+    struct Queue {
+        static constexpr std::uint32_t most_tiles = 16, most_slots = 512;
+        std::uint32_t tile[most_tiles];
+        std::uint32_t begin[most_tiles + 1];
+        std::uint32_t slot[most_slots + chunk_room + lane_count];
+        std::uint32_t tiles = 0;
+        std::uint32_t slots = 0;
 
-    // Pixels that remain, as bits.
-    struct Remaining {
-        std::uint32_t tile[PairQueue::room + lane_count];
-        std::uint32_t pixels[PairQueue::room + lane_count];
+        [[nodiscard]] std::uint32_t* next() noexcept { return slot + slots; }
+        [[nodiscard]] bool full() const noexcept { return tiles == most_tiles || slots >= most_slots; }
     };
 
-    struct Planes {
-        Real x[4], y[4], a[4], b[4];
-        T narrow[3][4];              // x, y and b
-        Lanes across, upward, by_q;  // the same, four lanes each
+    // Pairs of a tile and a triangle that remain.
+    struct Pairs {
+        static constexpr std::uint32_t room = Queue::most_slots + chunk_room;
+        std::uint32_t tile[room];
+        std::uint32_t slot[room];
+        std::uint32_t pixels[room];
+        T here[room + 3][4];  // the four planes' values at the corner of the tile
+        std::uint32_t count = 0;
     };
 
-    [[nodiscard]] static Planes planes_of(Batch const& batch, int k) noexcept {
-        Planes planes;
-        for (int i = 0; i < 4; ++i) {
-            planes.narrow[0][i] = static_cast<T>(planes.x[i] = batch.plane[0][i][k]);
-            planes.narrow[1][i] = static_cast<T>(planes.y[i] = batch.plane[1][i][k]);
-            planes.a[i] = batch.plane[2][i][k];
-            planes.narrow[2][i] = static_cast<T>(planes.b[i] = batch.plane[3][i][k]);
+    struct Quads {
+        Lanes q, q_x, q_y, column, row;
+    };
+
+    // A plane as a line across each pixel: inside where c + x u + y v >= 0.
+    struct Lines {
+        Lanes c, x, y;
+    };
+
+    // Takes the next `count` slots of the queue for a tile.
+    void enqueue(std::uint32_t tile, std::uint32_t count, Queue& queue) const noexcept {
+        queue.tile[queue.tiles] = tile;
+        queue.begin[queue.tiles++] = queue.slots;
+        queue.slots += count;
+        T const* const surface = surface_of(tile);
+        std::uint32_t const* const state = state_of(tile);
+        for (std::size_t i = 0; i < tile_scalars; i += cache_line / sizeof(T)) fetch_soon(surface + i);
+        for (std::size_t i = 0; i < tile_words; i += cache_line / sizeof(std::uint32_t)) fetch_soon(state + i);
+    }
+
+    void cover(RaisedTriangle<T> const* raised, Queue& queue) const noexcept {
+        Pairs pairs;
+        queue.begin[queue.tiles] = queue.slots;
+        for (std::uint32_t i = 0; i < queue.tiles; ++i) {
+            std::uint32_t const first = pairs.count;
+            leave_out(queue.tile[i], raised, queue.slot + queue.begin[i], queue.begin[i + 1] - queue.begin[i], pairs);
+            place(queue.tile[i], raised, first, pairs);
         }
-        planes.across = Lanes::quadrupled(planes.narrow[0]);
-        planes.upward = Lanes::quadrupled(planes.narrow[1]);
-        planes.by_q = Lanes::quadrupled(planes.narrow[2]);
-        return planes;
-    }
-
-    void cover(Batch const& batch, PairQueue& queue) const noexcept {
-        Remaining remaining;
-        std::uint32_t kept = 0;
-        queue.begin[queue.triangles] = queue.count;
-        for (std::uint32_t n = 0; n < ahead && n < queue.count; ++n) fetch_bounds(queue.tile[n]);
-        for (int t = 0; t < queue.triangles; ++t) {
-            int const k = queue.triangle[t];
-            T const keys[8] = {batch.bounds[1][k], -batch.bounds[0][k], batch.bounds[3][k], -batch.bounds[2][k],
-                               -batch.depth[k]};
-            std::uint32_t const first = kept;
-            for (std::uint32_t n = queue.begin[t]; n < queue.begin[t + 1]; ++n) {
-                if (n + ahead < queue.count) fetch_bounds(queue.tile[n + ahead]);
-                std::uint32_t const tile = queue.tile[n];
-                remaining.tile[kept] = tile;
-                remaining.pixels[kept] = pixels_in_reach(tile, keys);
-                kept += remaining.pixels[kept] != 0 ? 1u : 0u;
-            }
-            queue.begin[t] = first;
+        queue.tiles = queue.slots = 0;
+        std::uint32_t crossing[Pairs::room];
+        std::uint32_t const crossings = cross(raised, pairs, crossing);
+        for (std::uint32_t i = 0; i < crossings; ++i) {
+            std::uint32_t const n = crossing[i], tile = pairs.tile[n];
+            std::uint32_t* const state = state_of(tile);
+            state[alive_at] &=
+                ~darken(quads_of(tile), raised[pairs.slot[n]], pairs.here[n], pairs.pixels[n], state + mask_at);
         }
-        queue.begin[queue.triangles] = kept;
-        for (std::uint32_t n = 0; n < ahead / 2 && n < kept; ++n) fetch_quads(remaining.tile[n]);
-        for (int t = 0; t < queue.triangles; ++t) {
-            std::uint32_t n = queue.begin[t];
-            std::uint32_t const end = queue.begin[t + 1];
-            if (n == end) continue;
-            Planes const planes = planes_of(batch, queue.triangle[t]);
-            for (; n < end; ++n) {
-                if (n + ahead / 2 < kept) fetch_quads(remaining.tile[n + ahead / 2]);
-                test(remaining.tile[n], remaining.pixels[n], planes);
-            }
+    }
+
+    [[nodiscard]] Quads quads_of(std::uint32_t tile) const noexcept {
+        T const* const surface = surface_of(tile);
+        return {Lanes::load(surface), Lanes::load(surface + lane_count), Lanes::load(surface + 2 * lane_count),
+                Lanes::load(tile_columns<T>), Lanes::load(tile_rows<T>)};
+    }
+
+    [[nodiscard]] T* surface_of(std::uint32_t tile) const noexcept {
+        return buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
+    }
+    [[nodiscard]] std::uint32_t* state_of(std::uint32_t tile) const noexcept {
+        return buffer.state + tile_words * static_cast<std::size_t>(tile);
+    }
+
+    // Keeps the triangles that reach the bounds of a pixel.
+    void leave_out(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t const* slots, std::uint32_t count,
+                   Pairs& pairs) const noexcept {
+        std::uint32_t const* const state = state_of(tile);
+        T const* const base = surface_of(tile) + key_base_at;
+        T const* const step = surface_of(tile) + key_step_at;
+        auto const* const bytes = reinterpret_cast<unsigned char const*>(state);
+        auto const bound = [=](int i) {
+            return fused(Lanes::load_bytes(bytes + i * lane_count), Lanes::all(step[i]), Lanes::all(base[i]));
+        };
+        Lanes const bounds[5] = {bound(0), bound(1), bound(2), bound(3), bound(4)};
+        std::uint32_t const alive = state[alive_at];
+        std::uint32_t kept = pairs.count;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            T const(&keys)[5] = raised[slots[n]].keys;
+            std::uint32_t pixels = alive;
+            for (int i = 0; i < 5; ++i) pixels &= at_least(Lanes::all(keys[i]), bounds[i]);
+            pairs.tile[kept] = tile;
+            pairs.slot[kept] = slots[n];
+            pairs.pixels[kept] = pixels;
+            kept += pixels != 0 ? 1u : 0u;
         }
-        queue.clear();
+        pairs.count = kept;
     }
 
-    void fetch_bounds(std::uint32_t tile) const noexcept {
-        auto const index = static_cast<std::size_t>(tile);
-        fetch_soon(buffer.range + index * lane_count);
-        fetch_soon(buffer.bounds + index * lane_count);
-        fetch_soon(buffer.beyond + index * (lane_count / 4));
-        fetch_soon(buffer.alive + index);
-    }
-    void fetch_quads(std::uint32_t tile) const noexcept {
-        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        for (int i = 0; i < 3; ++i) fetch_soon(quads + i * lane_count);
-        fetch_soon(buffer.mask + lane_count * static_cast<std::size_t>(tile));
-    }
-
-    [[nodiscard]] std::uint32_t pixels_in_reach(std::uint32_t tile, T const (&keys)[8]) const noexcept {
-        auto const index = static_cast<std::size_t>(tile);
-        T const* const base = buffer.range + index * lane_count;
-        auto const* const bounds = reinterpret_cast<unsigned char const*>(buffer.bounds + index * lane_count);
-        auto const* const beyond = reinterpret_cast<unsigned char const*>(buffer.beyond + index * (lane_count / 4));
-        return buffer.alive[tile] & Lanes::reached(keys, base, base + lane_count / 2, bounds, beyond);
-    }
-
-    static constexpr std::uint32_t every_lane[lane_count] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-    void test(std::uint32_t tile, std::uint32_t pixels, Planes const& planes) const noexcept {
+    // The planes' values at the corner of the tile, of four triangles at once. Here large terms cancel; what is left is
+    // no more than a tile's worth.
+    void place(std::uint32_t tile, RaisedTriangle<T> const* raised, std::uint32_t first, Pairs& pairs) const noexcept {
         auto const tiles_across = static_cast<std::uint32_t>(buffer.tiles_across);
-        Real const x =
-            Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2);
-        Real const y =
-            Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2);
-        auto const tile_q = Real(buffer.tile_q[tile]);
-        // Here large terms cancel; what is left is no more than a tile's worth.
-        T here[4];
-        for (int i = 0; i < 4; ++i)
-            here[i] = static_cast<T>(planes.x[i] * x + planes.y[i] * y + (planes.a[i] + planes.b[i] * tile_q));
-        T const* const quads = buffer.quad + 3 * lane_count * static_cast<std::size_t>(tile);
-        std::uint32_t pixel[lane_count]{};
-        std::uint32_t const count = Lanes::compress(pixels, every_lane, pixel);
-        std::uint32_t const done =
-            count <= 4 ? few(tile, quads, pixel, count, here, planes) : many(tile, quads, pixels, here, planes);
-        if (done != 0) buffer.alive[tile] &= ~done;
+        auto const all = [](Real value) { return Wide::all(value); };
+        Wide const x =
+            all(Real(static_cast<int>(tile % tiles_across * tile_side) + buffer.rect.x) - Real(frame.width) / Real(2));
+        Wide const y =
+            all(Real(static_cast<int>(tile / tiles_across * tile_side) + buffer.rect.y) - Real(frame.height) / Real(2));
+        Wide const q = all(Real(surface_of(tile)[tile_q_at]));
+        for (std::uint32_t n = first; n < pairs.count; n += 4) {
+            // Past the last, the tile's first once more.
+            RaisedTriangle<T> const* four[4];
+            for (std::uint32_t j = 0; j < 4; ++j) four[j] = raised + pairs.slot[n + j < pairs.count ? n + j : first];
+            auto const rows = [&four](Real const(RaisedTriangle<T>::*plane)[4]) {
+                Real const* const row[4] = {four[0]->*plane, four[1]->*plane, four[2]->*plane, four[3]->*plane};
+                return Wide::rows(row);
+            };
+            using Raised = RaisedTriangle<T>;
+            Lanes::narrow(
+                fused(rows(&Raised::x), x, fused(rows(&Raised::y), y, fused(rows(&Raised::b), q, rows(&Raised::a)))))
+                .store(pairs.here[n]);
+        }
     }
 
-    // Four pixels: lane 4 i + j is plane i and pixel j.
-    [[nodiscard]] std::uint32_t few(std::uint32_t tile, T const* quads, std::uint32_t const* pixel, std::uint32_t count,
-                                    T const (&here)[4], Planes const& planes) const noexcept {
+    [[nodiscard]] static Lines lines_of(Quads const& quads, RaisedTriangle<T> const& planes, int i,
+                                        T const (&here)[4]) noexcept {
+        Lanes const across = Lanes::all(planes.across[i]), upward = Lanes::all(planes.upward[i]),
+                    by_q = Lanes::all(planes.by_q[i]);
+        return {fused(by_q, quads.q, fused(upward, quads.row, fused(across, quads.column, Lanes::all(here[i])))),
+                fused(by_q, quads.q_x, across), fused(by_q, quads.q_y, upward)};
+    }
+
+    // Pixels of which a sample may be inside, in the order of half_plane_mask: rounding is monotone.
+    [[nodiscard]] static std::uint32_t touched(Lines const& lines) noexcept {
         Lanes const zero = Lanes::all(T(0));
-        Lanes const q_x = Lanes::picked(quads + lane_count, pixel), q_y = Lanes::picked(quads + 2 * lane_count, pixel);
-        Lanes const column = Lanes::picked(tile_columns<T>, pixel), row = Lanes::picked(tile_rows<T>, pixel);
-        Lanes const c = fused(planes.by_q, Lanes::picked(quads, pixel),
-                              fused(planes.upward, row, fused(planes.across, column, Lanes::quadrupled(here))));
-        Lanes const gain_x = fused(planes.by_q, q_x, planes.across);
-        Lanes const gain_y = fused(planes.by_q, q_y, planes.upward);
-        std::uint32_t const touched = ((1u << count) - 1u) & in_all_planes(highest(c, gain_x, gain_y));
-        if (touched == 0) return 0;
-        std::uint32_t const full = in_all_planes(at_least((c + least(gain_x, zero)) + least(gain_y, zero), zero));
-        T lines[3][lane_count];
-        c.store(lines[0]);
-        gain_x.store(lines[1]);
-        gain_y.store(lines[2]);
+        return at_least((lines.c + most(lines.x, zero)) + most(lines.y, zero), zero);
+    }
+
+    // Leaves the pixels of which a sample may be within all four planes, and gives the pairs that have some. The
+    // triangle's own plane comes first: half of what it does not shadow lies before it.
+    [[nodiscard]] std::uint32_t cross(RaisedTriangle<T> const* raised, Pairs& pairs,
+                                      std::uint32_t* crossing) const noexcept {
+        std::uint32_t behind = 0;
+        for (std::uint32_t n = 0; n < pairs.count; ++n) {
+            std::uint32_t const pixels =
+                pairs.pixels[n] & touched(lines_of(quads_of(pairs.tile[n]), raised[pairs.slot[n]], 0, pairs.here[n]));
+            pairs.pixels[n] = pixels;
+            crossing[behind] = n;
+            behind += pixels != 0 ? 1u : 0u;
+        }
+        std::uint32_t kept = 0;
+        for (std::uint32_t m = 0; m < behind; ++m) {
+            std::uint32_t const n = crossing[m];
+            Quads const quads = quads_of(pairs.tile[n]);
+            std::uint32_t pixels = pairs.pixels[n];
+            for (int i = 1; i < 4; ++i) pixels &= touched(lines_of(quads, raised[pairs.slot[n]], i, pairs.here[n]));
+            pairs.pixels[n] = pixels;
+            crossing[kept] = n;
+            kept += pixels != 0 ? 1u : 0u;
+        }
+        return kept;
+    }
+
+    // Gives the pixels that have no sample left.
+    [[nodiscard]] static std::uint32_t darken(Quads const& quads, RaisedTriangle<T> const& planes, T const (&here)[4],
+                                              std::uint32_t pixels, std::uint32_t* masks) noexcept {
+        T stored[4][3][lane_count];
+        for (int i = 0; i < 4; ++i) {
+            Lines const lines = lines_of(quads, planes, i, here);
+            lines.c.store(stored[i][0]);
+            lines.x.store(stored[i][1]);
+            lines.y.store(stored[i][2]);
+        }
         std::uint32_t done = 0;
-        for (std::uint32_t bits = touched; bits != 0; bits &= bits - 1) {
-            int const place = lowest_bit(bits);
-            std::uint32_t dark = every_sample;
-            if ((full >> place & 1u) == 0)
-                for (int i = place; i < lane_count; i += 4)
-                    dark &= half_plane_mask<Lanes>(PixelLine<T>{lines[0][i], lines[1][i], lines[2][i]});
-            done |= darken(tile, pixel[place], dark);
-        }
-        return done;
-    }
-
-    // A lane for each pixel.
-    [[nodiscard]] std::uint32_t many(std::uint32_t tile, T const* quads, std::uint32_t pixels, T const (&here)[4],
-                                     Planes const& planes) const noexcept {
-        Lanes const zero = Lanes::all(T(0));
-        Lanes const q = Lanes::load(quads), q_x = Lanes::load(quads + lane_count),
-                    q_y = Lanes::load(quads + 2 * lane_count);
-        Lanes const column = Lanes::load(tile_columns<T>), row = Lanes::load(tile_rows<T>);
-        Lanes c[4], gain_x[4], gain_y[4];
-        std::uint32_t touched = pixels;
-        for (int i = 0; i < 4; ++i) {
-            Lanes const across = Lanes::all(planes.narrow[0][i]), upward = Lanes::all(planes.narrow[1][i]),
-                        by_q = Lanes::all(planes.narrow[2][i]);
-            c[i] = fused(by_q, q, fused(upward, row, fused(across, column, Lanes::all(here[i]))));
-            gain_x[i] = fused(by_q, q_x, across);
-            gain_y[i] = fused(by_q, q_y, upward);
-            touched &= highest(c[i], gain_x[i], gain_y[i]);
-        }
-        if (touched == 0) return 0;
-        std::uint32_t full = touched;
-        T lines[4][3][lane_count];
-        for (int i = 0; i < 4; ++i) {
-            full &= at_least((c[i] + least(gain_x[i], zero)) + least(gain_y[i], zero), zero);
-            c[i].store(lines[i][0]);
-            gain_x[i].store(lines[i][1]);
-            gain_y[i].store(lines[i][2]);
-        }
-        std::uint32_t done = full;
-        for (std::uint32_t bits = full; bits != 0; bits &= bits - 1) mask_of(tile, lowest_bit(bits)) = every_sample;
-        for (std::uint32_t bits = touched & ~full; bits != 0; bits &= bits - 1) {
+        for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
             int const k = lowest_bit(bits);
-            std::uint32_t dark = every_sample;
-            for (auto const& line : lines)
-                dark &= half_plane_mask<Lanes>(PixelLine<T>{line[0][k], line[1][k], line[2][k]});
-            done |= darken(tile, static_cast<std::uint32_t>(k), dark);
+            PixelLine<T> lines_here[4];
+            for (int i = 0; i < 4; ++i) lines_here[i] = {stored[i][0][k], stored[i][1][k], stored[i][2][k]};
+            std::uint32_t const dark = masks[k] |= half_planes_mask<Lanes>(lines_here);
+            done |= (dark == every_sample ? 1u : 0u) << k;
         }
         return done;
-    }
-
-    // Where a half plane may hold a sample, in the order of half_plane_mask: rounding is monotone.
-    [[nodiscard]] static std::uint32_t highest(Lanes const& c, Lanes const& gain_x, Lanes const& gain_y) noexcept {
-        Lanes const zero = Lanes::all(T(0));
-        return at_least((c + most(gain_x, zero)) + most(gain_y, zero), zero);
-    }
-
-    [[nodiscard]] std::uint32_t& mask_of(std::uint32_t tile, int pixel) const noexcept {
-        return buffer.mask[static_cast<std::size_t>(tile) * lane_count + static_cast<std::size_t>(pixel)];
-    }
-
-    // The pixel's bit where no sample is left.
-    [[nodiscard]] std::uint32_t darken(std::uint32_t tile, std::uint32_t pixel, std::uint32_t dark) const noexcept {
-        std::uint32_t& mask = mask_of(tile, static_cast<int>(pixel));
-        mask |= dark;
-        return (mask == every_sample ? 1u : 0u) << pixel;
-    }
-
-    // Bit k where bits k, 4 + k, 8 + k and 12 + k are set.
-    [[nodiscard]] static std::uint32_t in_all_planes(std::uint32_t bits) noexcept {
-        bits &= bits >> 8;
-        return bits & bits >> 4 & 0xfu;
     }
 };
 
@@ -12168,12 +12891,10 @@ struct CoverKernel {
 //
 // Source: Wyman, Hoetzlein and Lefohn, TVCG 22(10) 2016. Departures: tiles of 4 x 4 pixels are tested at once, first by
 // bounds of a byte each, then against all four planes before any sample; triangles are clipped only to find their
-// texels.
+// texels; and they are put in the order of the grid, where a node is held against sixteen of its neighbourhood at once.
 //
-// Against ray tracing (bench/irregular.cpp, 32 samples a pixel, one thread): the whole frame takes a fifth of Embree's
-// best at 100 thousand triangles and a quarter at a million, about as long as Embree's with one ray a pixel. At a
-// million half of it goes to pairs of a triangle and a tile, most of which end without a sample darkened, and a sixth
-// each to loading triangles and to finding their lists.
+// Against ray tracing (bench/irregular.cpp, 32 samples a pixel, one thread): the whole frame takes a seventh to a
+// twelfth of Embree's best, at 100 thousand triangles and at a million; about half of Embree's with one ray a pixel.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -12187,134 +12908,141 @@ struct TraceKernel {
     CoverKernel<Lanes> cover;
 
     using Batch = CasterBatch<Lanes>;
+    using Chunk = CasterChunk<Lanes>;
+    using Queue = typename CoverKernel<Lanes>::Queue;
 
-    // The levels that have a node which triangle k may touch.
-    [[nodiscard]] std::uint32_t levels_at(PlaceRange const& texels, T depth) const noexcept {
-        if (texels.x1 - texels.x0 > 3 || texels.y1 - texels.y0 > 3) return buffer.levels_used;
-        std::uint32_t levels = 0;
-        for (int y = texels.y0; y <= texels.y1; ++y)
-            for (int x = texels.x0; x <= texels.x1; ++x) {
-                int const texel = y * buffer.map_size + x;
-                levels |= buffer.texel_depth[texel] >= depth ? buffer.texel_levels[texel] : 0u;
-            }
-        return levels;
-    }
-
-    [[nodiscard]] PlaceRange places_of_triangle(Batch const& batch, int k) const noexcept {
-        T const bounds[4] = {batch.bounds[0][k], batch.bounds[1][k], batch.bounds[2][k], batch.bounds[3][k]};
-        return places_of(bounds, buffer.map_size);
-    }
-
-    // What a triangle is compared with nodes by.
-    struct Probe {
-        Lanes lo_x, hi_x, lo_y, hi_y, depth;
-        Batch const& batch;
-        int k;
-    };
-
-    // Queues the tiles of those nodes of [node, end) that the triangle may touch, and that it did not meet in a list
-    // before: those that begin at these edges of their cells or later. Nodes up to `all_across` may begin before x.
-    void scan(std::uint32_t node, std::uint32_t all_across, std::uint32_t end, T edge_x, T edge_y, Probe const& probe,
-              PairQueue& queue) const noexcept {
-        for (; node < end; node += lane_count) {
-            Lanes const lo_x = Lanes::load(buffer.lo_x + node), lo_y = Lanes::load(buffer.lo_y + node);
-            std::uint32_t hit = at_least(probe.hi_x, lo_x) & at_least(Lanes::load(buffer.hi_x + node), probe.lo_x) &
-                                at_least(probe.hi_y, lo_y) & at_least(Lanes::load(buffer.hi_y + node), probe.lo_y) &
-                                at_least(Lanes::load(buffer.depth + node), probe.depth) &
-                                at_least(lo_y, Lanes::all(edge_y)) &
-                                (at_least(lo_x, Lanes::all(edge_x)) | first_of(all_across, node));
-            hit &= first_of(end, node);
-            queue.count += Lanes::compress(hit, buffer.tile + node, queue.tile + queue.count);
-            if (queue.count < PairQueue::room) continue;
-            cover.cover(probe.batch, queue);
-            queue.open(probe.k);
-        }
-    }
-
-    [[nodiscard]] static std::uint32_t first_of(std::uint32_t end, std::uint32_t begin) noexcept {
-        if (end <= begin) return 0;
-        return end - begin < lane_count ? (1u << (end - begin)) - 1u : (1u << lane_count) - 1u;
-    }
-
-    // One triangle against the lists of the texels that it may cover.
-    void walk(Batch const& batch, int k, PairQueue& queue) const noexcept {
-        PlaceRange const places = places_of_triangle(batch, k);
+    // The list that a triangle begins in, of those whose cells are no narrower than it.
+    [[nodiscard]] std::uint32_t list_of(PlaceRange const& places, int extent) const noexcept {
         PlaceRange const texels = texels_of(places, 0);
-        std::uint32_t levels = levels_at(texels, batch.depth[k]);
-        if (levels == 0) return;
-        queue.open(k);
-        Probe const probe{Lanes::all(batch.bounds[0][k]),
-                          Lanes::all(batch.bounds[1][k]),
-                          Lanes::all(batch.bounds[2][k]),
-                          Lanes::all(batch.bounds[3][k]),
-                          Lanes::all(batch.depth[k]),
-                          batch,
-                          k};
-        T const anywhere = std::numeric_limits<T>::lowest();
-        std::uint32_t const* const first = buffer.first;
-        if ((levels & 1u) != 0)
-            for (int y = texels.y0; y <= texels.y1; ++y)
-                for (int x = texels.x0; x <= texels.x1; ++x) {
-                    int const texel = y * buffer.map_size + x;
-                    if (buffer.texel_depth[texel] < batch.depth[k] || (buffer.texel_levels[texel] & 1u) == 0) continue;
-                    bool const first_column = x == texels.x0, first_row = y == texels.y0;
-                    auto const division = static_cast<int>(buffer.texel_division[texel]);
-                    T const side = T(1) / T(1 << division);
-                    std::uint32_t const* const lists = first + buffer.texel_lists[texel];
-                    PlaceRange const in = divisions_of(places, x, y, division);
-                    scan(lists[0], first_column ? lists[1] : 0u, lists[1], T(x), first_row ? anywhere : T(y), probe,
-                         queue);
-                    T const edge_x = T(x) + T(first_column ? in.x0 + 1 : 0) * side;
-                    for (int j = in.y0; j <= in.y1; ++j) {
-                        std::uint32_t const* const row = lists + 1 + (j << division);
-                        scan(row[in.x0], first_column ? row[in.x0 + 1] : 0u, row[in.x1 + 1], edge_x,
-                             first_row && j == in.y0 ? anywhere : T(y) + T(j) * side, probe, queue);
-                    }
-                }
-        for (levels &= ~1u; levels != 0; levels &= levels - 1) {
-            int const level = lowest_bit(levels);
-            int const size = level_size(buffer.map_size, level);
-            T const side = T(1 << level_shift * level);
-            PlaceRange const range = texels_of(places, level);
-            for (int y = range.y0; y <= range.y1; ++y) {
-                std::uint32_t const* const row = first + buffer.level_first[level] + y * size;
-                scan(row[range.x0], row[range.x0 + 1], row[range.x1 + 1], T(range.x0 + 1) * side,
-                     y == range.y0 ? anywhere : T(y) * side, probe, queue);
-            }
+        if (extent > 1 << most_divisions) {
+            int level = 1;
+            while (level + 1 < buffer.level_count && extent > 1 << (most_divisions + level_shift * level)) ++level;
+            PlaceRange const at = coarser(texels, level_shift * level);
+            if (level < buffer.level_count)
+                return buffer.level_first[level] +
+                       static_cast<std::uint32_t>(at.y0 * level_size(buffer.map_size, level) + at.x0);
         }
-        queue.drop_empty();
+        int const texel = texels.y0 * buffer.map_size + texels.x0;
+        auto const k = static_cast<int>(buffer.texel_division[texel]);
+        int const first = 1 << most_divisions, shift = most_divisions - k;
+        int const in_x = (places.x0 & (first - 1)) >> shift, in_y = (places.y0 & (first - 1)) >> shift;
+        return buffer.texel_lists[texel] +
+               (extent > 1 << shift ? 0u : 1u + static_cast<std::uint32_t>((in_y << k) + in_x));
     }
 
-    // At most caster_block triangles, in the order of the texels that they begin in: what is next to each other in the
-    // grid is then in the caches, however the mesh was laid out.
-    void run_block(std::uint32_t begin, std::uint32_t count, Batch& batch, PairQueue& queue) const noexcept {
-        auto const texels = static_cast<std::uint32_t>(buffer.map_size * buffer.map_size);
-        std::uint32_t* const start = buffer.block_count;
-        std::memset(start, 0, (texels + 2) * sizeof(std::uint32_t));
-        for (std::uint32_t i = 0; i < count; i += lane_count) {
-            kernel.load(begin + i, count - i, nullptr, batch);
-            for (std::uint32_t k = 0; k < lane_count && i + k < count; ++k) {
-                std::uint32_t texel = texels;
-                if ((batch.sound >> k & 1u) != 0) {
-                    PlaceRange const at = texels_of(places_of_triangle(batch, static_cast<int>(k)), 0);
-                    if (levels_at(at, batch.depth[k]) != 0) {
-                        texel = static_cast<std::uint32_t>(at.y0 * buffer.map_size + at.x0);
-                        ++start[texel + 1];
-                    }
-                }
-                buffer.block_texel[i + k] = texel;
+    // Keeps the triangles that may touch a node, from `begin` on, until there is no room for more. Gives how many were
+    // looked at, and how many kept.
+    [[nodiscard]] std::uint32_t keep(std::uint32_t begin, std::uint32_t count, Batch& batch,
+                                     std::uint32_t& kept) const noexcept {
+        std::uint32_t places[4][lane_count];
+        Lanes const zero = Lanes::all(T(0)), last = Lanes::all(T((buffer.map_size << most_divisions) - 1));
+        Lanes const scale = Lanes::all(T(1 << most_divisions));
+        std::uint32_t done = 0, held = 0;
+        for (; done < count && held + lane_count <= buffer.caster_room; done += lane_count) {
+            kernel.load(begin + done, count - done, nullptr, batch);
+            for (int i = 0; i < 4; ++i)
+                least(most(Lanes::load(batch.bounds[i]) * scale, zero), last).store_words(places[i]);
+            for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) {
+                int const k = lowest_bit(bits);
+                PlaceRange const at{static_cast<int>(places[0][k]), static_cast<int>(places[1][k]),
+                                    static_cast<int>(places[2][k]), static_cast<int>(places[3][k])};
+                int const width = at.x1 - at.x0, height = at.y1 - at.y0, extent = width > height ? width : height;
+                PlaceRange const texels = texels_of(at, 0);
+                std::uint32_t const list = list_of(at, extent);
+                bool const in_block = extent <= 1 << most_divisions;
+                T const far_end = buffer.block_depth[texels.y0 * buffer.map_size + texels.x0];
+                std::uint32_t const met = !in_block || far_end >= batch.depth[k] ? 1u : 0u;
+                buffer.caster[held] = begin + done + static_cast<std::uint32_t>(k);
+                buffer.caster_list[held] = list;
+                buffer.caster_end[list + 1] += met;
+                held += met;
             }
         }
-        for (std::uint32_t texel = 0; texel < texels; ++texel) start[texel + 1] += start[texel];
-        std::uint32_t const kept = start[texels];
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (buffer.block_texel[i] != texels) buffer.block_order[start[buffer.block_texel[i]]++] = begin + i;
-        for (std::uint32_t i = 0; i < kept; i += lane_count) {
-            kernel.load(i, kept - i, buffer.block_order, batch);
-            kernel.raise_volumes(batch);
-            for (std::uint32_t bits = batch.sound; bits != 0; bits &= bits - 1) walk(batch, lowest_bit(bits), queue);
-            cover.cover(batch, queue);
+        kept = held;
+        return done < count ? done : count;
+    }
+
+    // Puts them in the order of their lists: what is next to each other in the grid is then in the caches, however the
+    // mesh was laid out.
+    void sort(std::uint32_t kept) const noexcept {
+        std::uint32_t* const end = buffer.caster_end;
+        for (std::uint32_t list = 0; list < buffer.list_count; ++list) end[list + 1] += end[list];
+        for (std::uint32_t i = 0; i < kept; ++i) buffer.caster_order[end[buffer.caster_list[i]]++] = buffer.caster[i];
+    }
+
+    void search(Chunk const& chunk, std::uint32_t list, Cell<T> const& cell, T far_end, CellCasters<Lanes>& here,
+                Queue& queue) const noexcept {
+        std::uint32_t const begin = buffer.first[list], end = buffer.first[list + 1];
+        if (begin == end) return;
+        here.take(chunk.bounds, cell, far_end);
+        if (here.bounds.count == 0) return;
+        T const* bounds = buffer.bounds + 5 * std::size_t{begin};
+        for (std::uint32_t node = begin; node < end; ++node, bounds += 5) {
+            std::uint32_t const found = here.find(bounds, cell, queue.next());
+            if (found == 0) continue;
+            cover.enqueue(buffer.tile[node], found, queue);
+            if (queue.full()) cover.cover(chunk.raised, queue);
         }
+    }
+
+    // A chunk against the lists of all cells that it may touch.
+    void run(Chunk& chunk, CellCasters<Lanes>& here, Queue& queue) const noexcept {
+        if (chunk.bounds.count == 0) return;
+        T bounds[5];
+        chunk.together(bounds);
+        T const anywhere = std::numeric_limits<T>::max();
+        PlaceRange const places = places_of(bounds, buffer.map_size);
+        for (std::uint32_t levels = buffer.levels_used; levels != 0; levels &= levels - 1) {
+            int const level = lowest_bit(levels), shift = most_divisions + level_shift * level;
+            int const size = level_size(buffer.map_size, level);
+            PlaceRange const range = coarser(places, shift);
+            for (int y = range.y0; y <= range.y1; ++y)
+                for (int x = range.x0; x <= range.x1; ++x) {
+                    int const texel = y * size + x;
+                    Cell<T> const cell = cell_at<T>(x, y, shift, buffer.map_size);
+                    if (level > 0) {
+                        search(chunk, buffer.level_first[level] + static_cast<std::uint32_t>(texel), cell, anywhere,
+                               here, queue);
+                        continue;
+                    }
+                    T const far_end = buffer.texel_depth[texel];
+                    if (far_end < bounds[4] || (buffer.texel_levels[texel] & 1u) == 0) continue;
+                    std::uint32_t const lists = buffer.texel_lists[texel];
+                    search(chunk, lists, cell, far_end, here, queue);
+                    auto const k = static_cast<int>(buffer.texel_division[texel]);
+                    PlaceRange const in = divisions_of(places, x, y, k);
+                    for (int j = in.y0; j <= in.y1; ++j)
+                        for (int i = in.x0; i <= in.x1; ++i)
+                            search(chunk, lists + 1 + static_cast<std::uint32_t>((j << k) + i),
+                                   cell_at<T>((x << k) + i, (y << k) + j, most_divisions - k, buffer.map_size), far_end,
+                                   here, queue);
+                }
+        }
+        cover.cover(chunk.raised, queue);
+        chunk.clear();
+    }
+
+    // Gives how many triangles were looked at.
+    [[nodiscard]] std::uint32_t run_block(std::uint32_t begin, std::uint32_t count) const noexcept {
+        constexpr std::uint32_t ahead = 4 * lane_count;
+        Batch batch;
+        Chunk chunk;
+        CellCasters<Lanes> here;
+        Queue queue;
+        std::memset(buffer.caster_end, 0, (buffer.list_count + 1) * sizeof(std::uint32_t));
+        std::uint32_t kept;
+        std::uint32_t const done = keep(begin, count, batch, kept);
+        sort(kept);
+        for (std::uint32_t i = 0; i < kept; i += lane_count) {
+            for (std::uint32_t k = i + ahead; k < i + ahead + lane_count && k < kept; ++k)
+                kernel.fetch(buffer.caster_order[k]);
+            kernel.load(i, kept - i, buffer.caster_order, batch);
+            kernel.raise_volumes(batch);
+            chunk.add(batch);
+            if (chunk.full()) run(chunk, here, queue);
+        }
+        run(chunk, here, queue);
+        return done;
     }
 };
 
@@ -12336,14 +13064,7 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
     detail::TraceKernel<Lanes> const kernel{
         buffer, {buffer, casters, frame, pixel_light(frame, buffer.source), w_floor}, {buffer, frame}};
-    detail::CasterBatch<Lanes> batch;
-    detail::PairQueue queue;
-    for (std::uint32_t done = 0; done < count;) {
-        std::uint32_t const block =
-            count - done < caster_block ? count - done : static_cast<std::uint32_t>(caster_block);
-        kernel.run_block(first + done, block, batch, queue);
-        done += block;
-    }
+    for (std::uint32_t done = 0; done < count;) done += kernel.run_block(first + done, count - done);
 }
 
 // One word for each pixel of the buffer's part of the picture, row by row, `stride` words apart: 0 for sky. A stride of
@@ -12358,10 +13079,10 @@ inline void write_masks(IrregularBuffer<T> const& buffer, std::uint32_t* masks, 
             std::memset(out, 0, static_cast<std::size_t>(rect.width) * sizeof(std::uint32_t));
             continue;
         }
-        std::uint32_t const* in = buffer.mask +
-                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * lane_count +
-                                  row % tile_side * tile_side;
-        for (int column = 0; column < rect.width; column += tile_side, in += lane_count) {
+        std::uint32_t const* in = buffer.state +
+                                  static_cast<std::size_t>(row / tile_side * buffer.tiles_across) * tile_words +
+                                  mask_at + row % tile_side * tile_side;
+        for (int column = 0; column < rect.width; column += tile_side, in += tile_words) {
             int const columns = rect.width - column < tile_side ? rect.width - column : tile_side;
             std::memcpy(out + column, in, static_cast<std::size_t>(columns) * sizeof(std::uint32_t));
         }
@@ -12439,9 +13160,12 @@ static_assert(sizeof(GpuIrregular) == 336);
 
 // Faults leave `gpu` as it was: those of the frame and the light, bad_projection where the grid is not a map of this
 // light, map_too_small for a grid outside [1, largest_grid].
-[[nodiscard]] inline Faults gpu_irregular(PixelFrame<float> const& frame, Light<float> const& light,
-                                          ShadowMap<float> const& grid, int map_size, GpuIrregular& gpu) noexcept {
-    IrregularBuffer<float> buffer;
+// NOTE: a template for float alone, so that it costs nothing to compile where it is not called.
+template <class T>
+[[nodiscard]] inline Faults gpu_irregular(PixelFrame<T> const& frame, Light<T> const& light, ShadowMap<T> const& grid,
+                                          int map_size, GpuIrregular& gpu) noexcept {
+    static_assert(std::numeric_limits<T>::digits == 24, "shaders compute in float");
+    IrregularBuffer<T> buffer;
     buffer.frame = frame;
     buffer.map_size = map_size;
     Faults faults = frame.faults | faults_of(light);
@@ -12449,7 +13173,7 @@ static_assert(sizeof(GpuIrregular) == 336);
     if (faults.any()) return faults;
     if (!detail::take_view(buffer, light, grid)) return Fault::bad_projection;
     GpuIrregular filled;
-    auto const three = [](Vec3<float> const& v) { return GpuFloat3{v.x, v.y, v.z}; };
+    auto const three = [](Vec3<T> const& v) { return GpuFloat3{v.x, v.y, v.z}; };
     bool const flat = frame.kind == ViewKind::orthographic;
     filled.frame = {three(frame.eye),       frame.width,
                     three(frame.across),    frame.height,
@@ -12462,7 +13186,7 @@ static_assert(sizeof(GpuIrregular) == 336);
     filled.parallel = buffer.light.parallel ? 1 : 0;
     filled.source = three(buffer.light.parallel ? light.direction : light.position);
     for (int i = 0; i < 4; ++i) {
-        PixelPlane<float> const plane = detail::plane_of_row(frame, buffer.row[i]);
+        PixelPlane<T> const plane = detail::plane_of_row(frame, buffer.row[i]);
         filled.row[i] = buffer.row[i];
         filled.seen[i] = Vec4<float>(plane.x, plane.y, plane.a, plane.b);
     }
@@ -12473,7 +13197,7 @@ static_assert(sizeof(GpuIrregular) == 336);
     filled.ray = buffer.contact_ray;
     filled.reach = buffer.contact_reach;
     filled.contact_metres = buffer.contact_reach;
-    filled.contact_share = contact_share<float>;
+    filled.contact_share = contact_share<T>;
     filled.w_min = grid.w_min > 0.0f ? grid.w_min : 0.0f;
     filled.map_size = map_size;
     gpu = filled;
