@@ -23,7 +23,7 @@ int main() {
     auto const region = sm::Region<float>{};
     auto const plane = sm::ShadowPlane<float>{glm::vec3(0, 1, 0), -3};
     auto const texel = sm::Footprint<float>{2, 0.5f};
-    auto const worth = sm::Worth<float>{4, 2, 100, 3};
+    auto const worth = sm::Worth<float>{4, 2, 3, 100, 3};
     auto const bias = sm::MapBias<float>{0.25f, 0, 1.5f, 1};
     auto const look_up = sm::LookUp<float>{1, 2, 0.25f};
     auto const lit = sm::LookUp<float>{};
