@@ -1357,6 +1357,7 @@ namespace detail {
 
 template <class T>
 struct Lanes {
+    using Scalar = T;
     static constexpr int fours = 1;
     T at[4];
 
@@ -1402,6 +1403,7 @@ struct Lanes {
 
 template <>
 struct Lanes<float> {
+    using Scalar = float;
     static constexpr int fours = 1;
     using Register [[gnu::vector_size(16)]] = float;
     Register at;
@@ -1973,6 +1975,7 @@ struct LongLanesOf {
 #if defined(__GNUC__) && defined(__AVX__) && (defined(__clang__) || __GNUC__ >= 12)
 
 struct LongFloats {
+    using Scalar = float;
 #if defined(__AVX512F__)
     static constexpr int fours = 4;
 #else
@@ -2152,7 +2155,7 @@ template <class L>
 [[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
                                                                     L const& a, L const& b) noexcept {
     Vectors<L> const middle = origin + half.step * (a + b);
-    L const length = where_at_most(a, b, b - a, L::all(-3e38f));
+    L const length = where_at_most(a, b, b - a, L::all(typename L::Scalar(-3e38)));
     Vectors<L> const reach = half.size * length;
     return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
 }

@@ -28,6 +28,7 @@ namespace detail {
 
 template <class T>
 struct Lanes {
+    using Scalar = T;
     static constexpr int fours = 1;
     T at[4];
 
@@ -73,6 +74,7 @@ struct Lanes {
 
 template <>
 struct Lanes<float> {
+    using Scalar = float;
     static constexpr int fours = 1;
     using Register [[gnu::vector_size(16)]] = float;
     Register at;

@@ -21,6 +21,7 @@ struct LongLanesOf {
 #if defined(__GNUC__) && defined(__AVX__) && (defined(__clang__) || __GNUC__ >= 12)
 
 struct LongFloats {
+    using Scalar = float;
 #if defined(__AVX512F__)
     static constexpr int fours = 4;
 #else

@@ -97,7 +97,7 @@ template <class L>
 [[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
                                                                     L const& a, L const& b) noexcept {
     Vectors<L> const middle = origin + half.step * (a + b);
-    L const length = where_at_most(a, b, b - a, L::all(-3e38f));
+    L const length = where_at_most(a, b, b - a, L::all(typename L::Scalar(-3e38)));
     Vectors<L> const reach = half.size * length;
     return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
 }

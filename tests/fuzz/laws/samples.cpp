@@ -44,8 +44,11 @@ void try_samples(Case& c) {
     options.clip = any_clip(c);
     Aabb<T> const casters = any_box<T>(c);
     Cascades<T> const cascades = c.call([&] { return fit_samples(rays, bounds, casters, options); });
-    for (Cascade<T> const& cascade : cascades)
+    c.hash(splits.plane, splits.count + 1);
+    for (Cascade<T> const& cascade : cascades) {
         c.require(laws::harmless(cascade.map), "a map is finite, and shows nothing when it is not visible");
+        c.hash(cascade.map.clip_from_world);
+    }
     if (!good) return;
     for (int i = 0; i < count; ++i)
         if (bounds.count > 0 && depth[i] >= view.z_near && depth[i] < view.z_far)

@@ -40,6 +40,7 @@ void try_warp(Case& c) {
                                       any_clip(c));
     });
     require_served(c, map, sun, seen.point, caster, T(2) * options.margin_texels / T(options.map_size));
+    c.hash(map.clip_from_world);
 }
 
 template <class T>
@@ -63,6 +64,7 @@ void try_plane(Case& c) {
                                   any_clip(c));
     });
     require_served(c, map, sun, seen.point, caster, T(2) * options.margin_texels / T(options.map_size));
+    c.hash(map.clip_from_world);
 }
 
 template <class T>
@@ -119,6 +121,8 @@ void try_judge(Case& c) {
         c.call([&] { return choose_plane(view, sun, points.data(), 4, ground, &previous, hysteresis); });
     c.require(!choice.visible || (all_finite(choice.plane.normal) && choice.distortion >= T(0)),
               "a chosen plane is a plane");
+    c.hash(&choice.plane.normal.x, 3);
+    c.hash(&choice.plane.offset, 1);
 }
 
 template <class T>

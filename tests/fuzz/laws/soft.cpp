@@ -37,6 +37,8 @@ void try_taps(Case& c) {
     T const radius = c.one_in(2) ? c.number<T>() : c.magnitude<T>(-10, 2);
     MapPenumbra<T> penumbra = c.call([&] { return penumbra_for(map, light, radius); });
     c.require(laws::is_harmless(penumbra), "a penumbra is finite");
+    c.hash(&penumbra.rim_x.x, 4);
+    c.hash(&penumbra.rim_y.x, 4);
     Vec3<T> const point = c.one_in(3) ? any_vector<T>(c) : point_within<T>(c, T(200));
     Vec3<T> const normal = c.one_in(3) ? any_vector<T>(c) : direction<T>(c);
     T const metres = c.number<T>();
@@ -62,6 +64,7 @@ void try_taps(Case& c) {
     SoftShadow<T> const soft =
         c.call([&] { return soft_visibility(map, size, point, normal, bias, penumbra, taps, stored); });
     c.require(laws::is_soft_shadow(soft), "a soft shadow is a share of light and a gap");
+    c.hash(&soft.visibility, 1);
     ExactShadow<T> const exact{c.number<T>(), c.number<T>()};
     SoftShadow<T> const any{c.number<T>(), c.number<T>(), c.one_in(2)};
     for (SoftShadow<T> const& one : {soft, any}) {
@@ -116,6 +119,8 @@ void try_moments(Case& c) {
     double const by_two = c.calm_call([&] { return vsm_visibility(vsm, receiver, deviation); });
     double const warped = c.calm_call([&] { return evsm_visibility(evsm, receiver, warp, deviation); });
     double const by_four = c.calm_call([&] { return msm_visibility(msm, receiver, bias); });
+    c.hash(&by_two, 1);
+    c.hash(&by_four, 1);
     c.require(by_two >= truth - lost && warped >= truth - lost, "two moments are never darker than the kernel");
     c.require(by_four >= (1 - static_cast<double>(bias)) * truth - 64 * eps,
               "four moments are never darker than the kernel");
