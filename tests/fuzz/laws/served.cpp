@@ -121,8 +121,6 @@ void try_judge(Case& c) {
         c.call([&] { return choose_plane(view, sun, points.data(), 4, ground, &previous, hysteresis); });
     c.require(!choice.visible || (all_finite(choice.plane.normal) && choice.distortion >= T(0)),
               "a chosen plane is a plane");
-    c.hash(&choice.plane.normal.x, 3);
-    c.hash(&choice.plane.offset, 1);
 }
 
 template <class T>
