@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 using namespace shadowmath;
 
@@ -212,4 +213,32 @@ TEST(ProjectedBounds, OfManyBoxesAreThoseOfEachMergedWhateverTheMatrix) {
     EXPECT_TRUE(is_empty(projected_bounds(small, boxes, 2, nan)));
     EXPECT_TRUE(is_empty(projected_bounds(small, boxes, 0, 0.5f)));
     EXPECT_TRUE(is_empty(projected_bounds(small, boxes, -1, 0.5f)));
+}
+
+TEST(ProjectedBounds, OfThousandsLeaveOutNoBoxThatReachesFartherThanThoseBefore) {
+    // Around the axis of the view, every hundredth farther out than all before it; a few across the eye's plane.
+    constexpr int count = 5003;
+    std::vector<Aabb<float>> boxes;
+    std::vector<float> columns[6];
+    for (int i = 0; i < count; ++i) {
+        float const turn = 0.7f * static_cast<float>(i), out = i % 100 == 99 ? 1e-3f * static_cast<float>(i) : 0.5f;
+        glm::vec3 const centre(out * std::cos(turn), out * std::sin(turn), i % 997 == 996 ? 0.0f : -4.0f - out);
+        glm::vec3 const half(0.01f, 0.02f, 0.3f);
+        boxes.push_back({centre - half, centre + half});
+        for (int axis = 0; axis < 3; ++axis) {
+            columns[axis].push_back(boxes.back().lo[axis]);
+            columns[axis + 3].push_back(boxes.back().hi[axis]);
+        }
+    }
+    BoxArrays<float> const arrays{columns[0].data(), columns[1].data(), columns[2].data(),
+                                  columns[3].data(), columns[4].data(), columns[5].data()};
+    glm::mat4 perspective(1.0f);
+    perspective[2][3] = -1.0f;
+    perspective[3][3] = 0.0f;
+    for (float const w_min : {0.1f, 1.0f, 4.5f})
+        for (int const some : {1023, 1024, 1025, 2049, count}) {
+            Aabb<float> const together = projected_bounds(perspective, arrays, some, w_min);
+            EXPECT_TRUE(laws::are_the_merged_bounds(perspective, boxes.data(), some, w_min, together))
+                << some << ' ' << w_min;
+        }
 }
