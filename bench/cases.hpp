@@ -41,6 +41,22 @@ inline shadowmath::ViewVolume<float> view_of(textbook::Camera const& camera) {
                                         camera.fov_y, camera.aspect, camera.z_near, camera.z_far);
 }
 
+// As many as no branch predictor learns, always the same.
+constexpr std::size_t view_count = 64;
+
+inline std::vector<textbook::Camera> cameras() {
+    Random random;
+    std::vector<textbook::Camera> made;
+    for (std::size_t i = 0; i < view_count; ++i) made.push_back(some_camera(random));
+    return made;
+}
+
+inline std::vector<shadowmath::ViewVolume<float>> views_of(std::vector<textbook::Camera> const& cameras) {
+    std::vector<shadowmath::ViewVolume<float>> views;
+    for (textbook::Camera const& camera : cameras) views.push_back(view_of(camera));
+    return views;
+}
+
 struct Boxes {
     std::vector<textbook::Box> boxes;
     std::vector<float> columns[6];

@@ -9,10 +9,8 @@
 using namespace shadowmath;
 
 static int const registered = [] {
-    bench::Random random;
-    auto const cameras = bench::inputs([&] { return bench::some_camera(random); });
-    std::vector<ViewVolume<float>> views;
-    for (textbook::Camera const& camera : cameras) views.push_back(bench::view_of(camera));
+    auto const cameras = bench::cameras();
+    auto const views = bench::views_of(cameras);
     bench::time("bounding_sphere/ours", views, [](ViewVolume<float> const& view) { return bounding_sphere(view); });
     bench::time("bounding_sphere/textbook", cameras, [](textbook::Camera const& camera) {
         auto const corners = textbook::frustum_corners(camera, camera.z_near, camera.z_far);

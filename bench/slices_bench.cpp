@@ -12,20 +12,13 @@ using namespace shadowmath;
 
 namespace {
 
-constexpr std::size_t view_count = 64;
-
-std::vector<textbook::Camera> cameras() {
-    bench::Random random;
-    std::vector<textbook::Camera> made;
-    for (std::size_t i = 0; i < view_count; ++i) made.push_back(bench::some_camera(random));
-    return made;
-}
+using bench::cameras;
+using bench::view_count;
 
 // Calls with one view after the other.
 template <class Call>
 void with_views(benchmark::State& state, Call const& call) {
-    std::vector<ViewVolume<float>> views;
-    for (textbook::Camera const& camera : cameras()) views.push_back(bench::view_of(camera));
+    auto const views = bench::views_of(cameras());
     glm::mat4 maps[4];
     std::size_t i = 0;
     for (auto _ : state) {

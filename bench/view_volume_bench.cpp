@@ -11,10 +11,8 @@
 using namespace shadowmath;
 
 static int const registered = [] {
-    bench::Random random;
-    auto const cameras = bench::inputs([&] { return bench::some_camera(random); });
-    std::vector<ViewVolume<float>> views;
-    for (textbook::Camera const& camera : cameras) views.push_back(bench::view_of(camera));
+    auto const cameras = bench::cameras();
+    auto const views = bench::views_of(cameras);
     bench::time("view_corners/ours", views, [](ViewVolume<float> const& view) { return corners(view); });
     bench::time("view_corners/textbook", cameras, [](textbook::Camera const& camera) {
         return textbook::frustum_corners(camera, camera.z_near, camera.z_far);

@@ -27,19 +27,13 @@ using namespace shadowmath;
 
 namespace {
 
-constexpr std::size_t view_count = 64;
+using bench::cameras;
+using bench::view_count;
+
 Aabb<float> const scene{glm::vec3(-120, 0, -120), glm::vec3(120, 30, 120)};
 
-std::vector<textbook::Camera> cameras() {
-    bench::Random random;
-    std::vector<textbook::Camera> made;
-    for (std::size_t i = 0; i < view_count; ++i) made.push_back(bench::some_camera(random));
-    return made;
-}
-
 void ours(benchmark::State& state) {
-    std::vector<ViewVolume<float>> views;
-    for (textbook::Camera const& camera : cameras()) views.push_back(bench::view_of(camera));
+    auto const views = bench::views_of(cameras());
     CascadeOptions<float> options;
     options.fit = CascadeFit::warped;
     Light<float> const sun = directional(bench::sun);

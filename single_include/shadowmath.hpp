@@ -1561,6 +1561,21 @@ template <class T>
     return Lanes<T>::of(value, value, value, value);
 }
 
+// What edges are divided by to find where they meet a plane; nothing is divided by less. Planes are moved some epsilon
+// of the reach of what they bound: along what leans less, none is met within a million times the length of an edge.
+template <class T>
+inline constexpr T least_divisor = T(1e-6) * std::numeric_limits<T>::epsilon();
+
+template <class T>
+[[nodiscard]] inline T not_zero(T value) noexcept {
+    return std::abs(value) >= least_divisor<T> ? value : least_divisor<T>;
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
+    Lanes<T> const least = all_four(least_divisor<T>);
+    return where_at_most(least, absolute(value), value, least);
+}
+
 }  // namespace detail
 }  // namespace v0
 }  // namespace shadowmath
@@ -2180,14 +2195,6 @@ template <class L>
                                                             L const& inverse) noexcept {
     L const a = lo * inverse, b = hi * inverse, shift = from * inverse;
     return {least(a, b) - shift, largest(a, b) - shift};
-}
-
-// Nothing is divided by less than this. Planes are some epsilon of the view's reach farther out than they are: along
-// what leans less, none of them is met within a million times the length of an edge.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
-    Lanes<T> const tiny = all_four(T(1e-6) * std::numeric_limits<T>::epsilon());
-    return where_at_most(tiny, absolute(value), value, tiny);
 }
 
 // A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
@@ -3018,13 +3025,6 @@ struct DepthsOfEdges {
     }
 };
 
-// What is divided by: nothing that an edge is long is met along less.
-template <class T>
-[[nodiscard]] inline T divisor(T value) noexcept {
-    constexpr T tiny = T(1e-6) * std::numeric_limits<T>::epsilon();
-    return std::abs(value) >= tiny ? value : tiny;
-}
-
 }  // namespace detail
 
 // Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
@@ -3064,7 +3064,7 @@ template <class T>
         Lanes first = all(body.lo[axis]), last = all(body.hi[axis]);
         for (std::size_t i = 0; i < 4; ++i) {
             Vec4<T> const& plane = planes[i];
-            T const inward = detail::divisor(plane[axis]);
+            T const inward = detail::not_zero(plane[axis]);
             Lanes const root = (u * all(plane[next]) + v * all(plane[after]) + all(plane.w)) * all(T(-1) / inward);
             // It enters where it goes inward, and leaves where not.
             if (inward > T(0))
@@ -3096,8 +3096,7 @@ template <class T>
             from = from + sideways;
         else
             step = step + sideways;
-        Lanes const tiny = all(T(1e-6) * std::numeric_limits<T>::epsilon());
-        Lanes const inverse = all(T(1)) / where_at_most(tiny, absolute(step), step, tiny);
+        Lanes const inverse = all(T(1)) / not_zero(step);
         Lanes const a = (all(body.lo[axis] - rounding) - from) * inverse;
         Lanes const b = (all(body.hi[axis] + rounding) - from) * inverse;
         first = largest(first, least(a, b));
@@ -5852,6 +5851,17 @@ template <class T>
     return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
 }
 
+namespace detail {
+
+// Where the ray through the middle of cell `ray`, of `across` by `up` that divide the picture, meets the view's sides.
+template <class T>
+[[nodiscard]] inline Vec2<T> side_of_ray(ViewVolume<T> const& view, int ray, int across, int up) noexcept {
+    T const x = (T(ray % across) + T(0.5)) / T(across), y = (T(ray / across) + T(0.5)) / T(up);
+    return {view.left + (view.right - view.left) * x, view.bottom + (view.top - view.bottom) * y};
+}
+
+}  // namespace detail
+
 // Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
 // depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
 // without an end.
@@ -5864,16 +5874,15 @@ template <class T>
         return samples;
     constexpr int rays = 8, on_each = 4;
     for (int ray = 0; ray < rays * rays; ++ray) {
-        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
-        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
-        DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, receivers);
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays, rays);
+        DepthSpan<T> const inside = depths_in_box(view, side.x, side.y, receivers);
         if (!(inside.first <= inside.last)) continue;
         T const begin = inside.first, end = inside.last;
         T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
         int const count = ratio > T(1.001) ? on_each : 1;
         for (int i = 0; i < count; ++i) {
             T const depth = floor * std::pow(ratio, (T(i) + T(0.5)) / T(count));
-            Vec3<T> const point = point_at(view, side_x, side_y, depth);
+            Vec3<T> const point = point_at(view, side.x, side.y, depth);
             if (!all_finite(point)) continue;
             samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
         }
@@ -7708,13 +7717,11 @@ template <class T>
     int count = 0;
     ViewVolume<T> const& view = sampler.view;
     for (int ray = 0; ray < rays_x * rays_y; ++ray) {
-        T const part_x = (T(ray % rays_x) + T(0.5)) / T(rays_x), part_y = (T(ray / rays_x) + T(0.5)) / T(rays_y);
-        T const side_x = view.left + (view.right - view.left) * part_x;
-        T const side_y = view.bottom + (view.top - view.bottom) * part_y;
-        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays_x, rays_y);
+        RayGuesses<T> const guesses = guesses_on_ray(view, side.x, side.y, boxes, box_count);
         for (int i = 0; i < guesses.count && count < capacity; ++i) {
             DepthGuess<T> const& guess = guesses.at[static_cast<unsigned>(i)];
-            Vec3<T> const point = point_at(view, side_x, side_y, guess.depth);
+            Vec3<T> const point = point_at(view, side.x, side.y, guess.depth);
             LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
             sample.weight = guess.weight;
             if (sample.usable) into[count++] = sample;
@@ -7733,16 +7740,15 @@ template <class T>
     if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light)) return samples;
     constexpr int rays = 8, on_each = max_samples / (rays * rays);
     for (int ray = 0; ray < rays * rays; ++ray) {
-        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
-        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
-        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays, rays);
+        RayGuesses<T> const guesses = guesses_on_ray(view, side.x, side.y, boxes, box_count);
         int at = 0;
         T passed = T(0);  // weight of the guesses before `at`
         for (int i = 0; i < on_each && guesses.count > 0; ++i) {
             T const share = (T(i) + T(0.5)) / T(on_each);
             while (at + 1 < guesses.count && passed + guesses.at[static_cast<unsigned>(at)].weight < share)
                 passed += guesses.at[static_cast<unsigned>(at++)].weight;
-            Vec3<T> const point = point_at(view, side_x, side_y, guesses.at[static_cast<unsigned>(at)].depth);
+            Vec3<T> const point = point_at(view, side.x, side.y, guesses.at[static_cast<unsigned>(at)].depth);
             if (!all_finite(point)) continue;
             samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/speed.hpp"
 
+#include "examples/support/svg.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -12,12 +14,6 @@
 
 namespace shadowmath::gallery {
 namespace {
-
-std::string as_text(std::string const& raw) {
-    std::string safe;
-    for (char const c : raw) safe += c == '<' ? "&lt;" : (c == '>' ? "&gt;" : (c == '&' ? "&amp;" : std::string(1, c)));
-    return safe;
-}
 
 std::string with_digits(double value, int digits, char const* unit) {
     std::array<char, 64> text{};
@@ -46,8 +42,8 @@ std::string cell(std::string const& text, char const* classes = "") {
 
 std::string row(nlohmann::json const& entry) {
     bool const has_goal = entry.at("goal").is_number(), is_include = entry.at("flags") == "-fsyntax-only";
-    std::string line = "<tr><th scope=\"row\">" + as_text(entry.at("name")) + "</th>";
-    line += cell(as_text(entry.at("reference")), "left");
+    std::string line = "<tr><th scope=\"row\">" + example::escaped(entry.at("name").get<std::string>()) + "</th>";
+    line += cell(example::escaped(entry.at("reference").get<std::string>()), "left");
     line += cell(time(entry.at("ours_ns"))) + cell(time(entry.at("reference_ns")));
     line += cell(three(entry.at("ratio"), "&nbsp;×"));
     if (!has_goal) return line + cell("") + cell("") + "</tr>\n";
@@ -76,7 +72,7 @@ std::string speed_table(std::filesystem::path const& ratios) {
     std::string html;
     for (std::string const& flags : builds) {
         html +=
-            "<h3>" + as_text(flags == "-fsyntax-only" ? "What an include costs, above GLM" : "g++ " + flags) +
+            "<h3>" + example::escaped(flags == "-fsyntax-only" ? "What an include costs, above GLM" : "g++ " + flags) +
             "</h3>\n<div class=\"scroll sticky-head tall\"><table><thead><tr><th scope=\"col\" class=\"left\">Job</th>"
             "<th scope=\"col\" class=\"left\">Against</th><th scope=\"col\">Ours</th><th scope=\"col\">Its</th>"
             "<th scope=\"col\">Ratio</th><th scope=\"col\">Goal</th><th scope=\"col\" class=\"left\"></th></tr></thead>"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/quality/policies.hpp"
 
+#include "examples/gallery/technique_fits.hpp"
 #include "examples/quality/recipes.hpp"
 
 #include <shadowmath/choose_maps.hpp>
@@ -16,6 +17,7 @@
 namespace shadowmath::quality {
 namespace {
 
+using gallery::box_of;
 using scenes::View;
 
 constexpr ClipSpace clip = gl_zero_to_one_clip;
@@ -46,10 +48,6 @@ ViewVolume<double> eye_of(View const& view, backend::Extent extent) {
     return perspective_view(pose_looking(view.eye, view.forward, view.up), view.fov_y_radians,
                             double(extent.width) / double(extent.height), view.z_near,
                             std::max(2000.0, 2.0 * view.shadow_distance));
-}
-
-Aabb<double> box_of(backend::Object const& object) {
-    return {glm::dvec3(object.lo), glm::dvec3(object.hi)};
 }
 
 Camera camera_of(Input const& in) {

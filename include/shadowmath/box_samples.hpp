@@ -93,13 +93,11 @@ template <class T>
     int count = 0;
     ViewVolume<T> const& view = sampler.view;
     for (int ray = 0; ray < rays_x * rays_y; ++ray) {
-        T const part_x = (T(ray % rays_x) + T(0.5)) / T(rays_x), part_y = (T(ray / rays_x) + T(0.5)) / T(rays_y);
-        T const side_x = view.left + (view.right - view.left) * part_x;
-        T const side_y = view.bottom + (view.top - view.bottom) * part_y;
-        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays_x, rays_y);
+        RayGuesses<T> const guesses = guesses_on_ray(view, side.x, side.y, boxes, box_count);
         for (int i = 0; i < guesses.count && count < capacity; ++i) {
             DepthGuess<T> const& guess = guesses.at[static_cast<unsigned>(i)];
-            Vec3<T> const point = point_at(view, side_x, side_y, guess.depth);
+            Vec3<T> const point = point_at(view, side.x, side.y, guess.depth);
             LightSample<T> sample = light_sample(sampler, {point, neutral_normal(view, light, point)});
             sample.weight = guess.weight;
             if (sample.usable) into[count++] = sample;
@@ -118,16 +116,15 @@ template <class T>
     if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light)) return samples;
     constexpr int rays = 8, on_each = max_samples / (rays * rays);
     for (int ray = 0; ray < rays * rays; ++ray) {
-        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
-        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
-        RayGuesses<T> const guesses = guesses_on_ray(view, side_x, side_y, boxes, box_count);
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays, rays);
+        RayGuesses<T> const guesses = guesses_on_ray(view, side.x, side.y, boxes, box_count);
         int at = 0;
         T passed = T(0);  // weight of the guesses before `at`
         for (int i = 0; i < on_each && guesses.count > 0; ++i) {
             T const share = (T(i) + T(0.5)) / T(on_each);
             while (at + 1 < guesses.count && passed + guesses.at[static_cast<unsigned>(at)].weight < share)
                 passed += guesses.at[static_cast<unsigned>(at++)].weight;
-            Vec3<T> const point = point_at(view, side_x, side_y, guesses.at[static_cast<unsigned>(at)].depth);
+            Vec3<T> const point = point_at(view, side.x, side.y, guesses.at[static_cast<unsigned>(at)].depth);
             if (!all_finite(point)) continue;
             samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
         }

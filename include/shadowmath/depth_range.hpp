@@ -63,13 +63,6 @@ struct DepthsOfEdges {
     }
 };
 
-// What is divided by: nothing that an edge is long is met along less.
-template <class T>
-[[nodiscard]] inline T divisor(T value) noexcept {
-    constexpr T tiny = T(1e-6) * std::numeric_limits<T>::epsilon();
-    return std::abs(value) >= tiny ? value : tiny;
-}
-
 }  // namespace detail
 
 // Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
@@ -109,7 +102,7 @@ template <class T>
         Lanes first = all(body.lo[axis]), last = all(body.hi[axis]);
         for (std::size_t i = 0; i < 4; ++i) {
             Vec4<T> const& plane = planes[i];
-            T const inward = detail::divisor(plane[axis]);
+            T const inward = detail::not_zero(plane[axis]);
             Lanes const root = (u * all(plane[next]) + v * all(plane[after]) + all(plane.w)) * all(T(-1) / inward);
             // It enters where it goes inward, and leaves where not.
             if (inward > T(0))
@@ -141,8 +134,7 @@ template <class T>
             from = from + sideways;
         else
             step = step + sideways;
-        Lanes const tiny = all(T(1e-6) * std::numeric_limits<T>::epsilon());
-        Lanes const inverse = all(T(1)) / where_at_most(tiny, absolute(step), step, tiny);
+        Lanes const inverse = all(T(1)) / not_zero(step);
         Lanes const a = (all(body.lo[axis] - rounding) - from) * inverse;
         Lanes const b = (all(body.hi[axis] + rounding) - from) * inverse;
         first = largest(first, least(a, b));

@@ -76,6 +76,17 @@ template <class T>
     return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
 }
 
+namespace detail {
+
+// Where the ray through the middle of cell `ray`, of `across` by `up` that divide the picture, meets the view's sides.
+template <class T>
+[[nodiscard]] inline Vec2<T> side_of_ray(ViewVolume<T> const& view, int ray, int across, int up) noexcept {
+    T const x = (T(ray % across) + T(0.5)) / T(across), y = (T(ray / across) + T(0.5)) / T(up);
+    return {view.left + (view.right - view.left) * x, view.bottom + (view.top - view.bottom) * y};
+}
+
+}  // namespace detail
+
 // Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
 // depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
 // without an end.
@@ -88,16 +99,15 @@ template <class T>
         return samples;
     constexpr int rays = 8, on_each = 4;
     for (int ray = 0; ray < rays * rays; ++ray) {
-        T const x = (T(ray % rays) + T(0.5)) / T(rays), y = (T(ray / rays) + T(0.5)) / T(rays);
-        T const side_x = view.left + (view.right - view.left) * x, side_y = view.bottom + (view.top - view.bottom) * y;
-        DepthSpan<T> const inside = depths_in_box(view, side_x, side_y, receivers);
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays, rays);
+        DepthSpan<T> const inside = depths_in_box(view, side.x, side.y, receivers);
         if (!(inside.first <= inside.last)) continue;
         T const begin = inside.first, end = inside.last;
         T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
         int const count = ratio > T(1.001) ? on_each : 1;
         for (int i = 0; i < count; ++i) {
             T const depth = floor * std::pow(ratio, (T(i) + T(0.5)) / T(count));
-            Vec3<T> const point = point_at(view, side_x, side_y, depth);
+            Vec3<T> const point = point_at(view, side.x, side.y, depth);
             if (!all_finite(point)) continue;
             samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
         }

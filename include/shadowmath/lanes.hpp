@@ -232,6 +232,21 @@ template <class T>
     return Lanes<T>::of(value, value, value, value);
 }
 
+// What edges are divided by to find where they meet a plane; nothing is divided by less. Planes are moved some epsilon
+// of the reach of what they bound: along what leans less, none is met within a million times the length of an edge.
+template <class T>
+inline constexpr T least_divisor = T(1e-6) * std::numeric_limits<T>::epsilon();
+
+template <class T>
+[[nodiscard]] inline T not_zero(T value) noexcept {
+    return std::abs(value) >= least_divisor<T> ? value : least_divisor<T>;
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
+    Lanes<T> const least = all_four(least_divisor<T>);
+    return where_at_most(least, absolute(value), value, least);
+}
+
 }  // namespace detail
 }  // namespace v0
 }  // namespace shadowmath

@@ -124,14 +124,6 @@ template <class L>
     return {least(a, b) - shift, largest(a, b) - shift};
 }
 
-// Nothing is divided by less than this. Planes are some epsilon of the view's reach farther out than they are: along
-// what leans less, none of them is met within a million times the length of an edge.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline Lanes<T> not_zero(Lanes<T> const& value) noexcept {
-    Lanes<T> const tiny = all_four(T(1e-6) * std::numeric_limits<T>::epsilon());
-    return where_at_most(tiny, absolute(value), value, tiny);
-}
-
 // A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
 // at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
 template <class T>
