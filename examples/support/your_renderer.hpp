@@ -52,7 +52,7 @@ inline Hit first_hit(Ray const& ray) {
     return hit;
 }
 
-// Row by row from the bottom one, what `pixel_of` makes of each pixel's place in [-1, 1]^2, its ray and what that meets.
+// Row by row from the bottom one, what `pixel_of` makes of a pixel's place in [-1, 1]^2, its ray and what that meets.
 template <class RayAt, class PixelOf>
 auto drawn(int width, int height, RayAt const& ray_at, PixelOf const& pixel_of) {
     std::vector<decltype(pixel_of(vec2(), Ray(), Hit()))> pixels;
