@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. Under the address
-// sanitizer allocations are counted by its own hook: it wants operator new for itself.
+// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. The address
+// sanitizer wants operator new for itself: allocations are then counted by its own hook.
 #include "tests/fuzz/case.hpp"
 
 #include <cstdio>
