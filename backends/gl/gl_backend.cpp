@@ -3,9 +3,8 @@
 
 #include "backends/constants.hpp"
 #include "backends/gl/compute.hpp"
-#include "backends/gl/context.hpp"
-#include "backends/gl/listen.hpp"
 #include "backends/gl/objects.hpp"
+#include "backends/gl/session.hpp"
 #include "backends/gl/statistics.hpp"
 #include "backends/pass_check.hpp"
 #include "backends/shaders/embedded.hpp"
@@ -14,7 +13,6 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace shadowmath::backend {
 namespace {
@@ -58,11 +56,8 @@ struct Resources {
 
 class GlBackend final : public Backend {
 public:
-    GlBackend(std::unique_ptr<Context> context, GlShaders shaders) : context_(std::move(context)) {
-        Current const current(*context_);
-        gl_.emplace([this](char const* name) { return context_->proc(name); });
-        if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
-        listen(*gl_, messages_);
+    GlBackend(GlContextKind kind, GlShaders shaders) : session_(kind, shaders), gl_(&session_.procs()) {
+        Current const current = session_.current();
         resources_.emplace(*gl_);
         describe_vertices();
         prepare_maps(1, 1);  // the receiver's sampler always has a texture
@@ -74,19 +69,11 @@ public:
     }
 
     ~GlBackend() override {
-        context_->make_current();
+        Current const current = session_.current();
         resources_.reset();
-        context_->release();
     }
 
-    BackendInfo info() const override {
-        Current const current(*context_);
-        auto const text = [this](GLenum what) {
-            return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
-        };
-        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION),
-                takes_spirv(*gl_, shaders::depth_vert) ? "SPIR-V" : "GLSL"};
-    }
+    BackendInfo info() const override { return session_.info(takes_spirv(*gl_, shaders::depth_vert)); }
 
     std::vector<DrawWay> ways() const override {
         std::vector<DrawWay> ways{DrawWay::pass_per_map, DrawWay::geometry_clones};
@@ -96,7 +83,7 @@ public:
 
     void upload(Scene const& scene) override {
         demand_none(fault_of(scene));
-        Current const current(*context_);
+        Current const current = session_.current();
         auto const fill = [this](GLuint buffer, auto const& items) {
             gl_->NamedBufferData(buffer, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])), items.data(),
                                  GL_STATIC_DRAW);
@@ -110,7 +97,7 @@ public:
         demand_none(fault_of(pass, objects_.size()));
         demand_none(fault_of(pass.way, ways()));
         demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
 
         std::vector<DrawGroup> const groups = plan_draws(pass, objects_);
@@ -126,7 +113,7 @@ public:
     DrawWork draw_scene(ScenePass const& pass) override {
         demand_none(fault_of(pass, layers_));
         demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_frame(pass.extent);
 
         std::vector<ViewDraw> const views = plan_view(pass, objects_);
@@ -145,7 +132,7 @@ public:
         demand_none(fault_of(pass, view, objects_.size()));
         DepthPass maps = pass;
         maps.way = DrawWay::pass_per_map;
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_maps(maps.map_size, 1);
         prepare_frame(view.extent);
 
@@ -168,7 +155,7 @@ public:
 
     DrawWork fit_maps(FitPass const& pass) override {
         demand_none(fault_of(pass));
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_fit(pass);
 
         ViewDraw eye;
@@ -189,7 +176,7 @@ public:
     Image<float> read_depth(int layer) override {
         if (layer < 0 || layer >= layers_)
             throw std::runtime_error("read_depth: layer " + std::to_string(layer) + " of " + std::to_string(layers_));
-        Current const current(*context_);
+        Current const current = session_.current();
         Image<float> image(Extent{map_size_, map_size_});
         gl_->GetTextureSubImage(resources_->maps, 0, 0, 0, layer, map_size_, map_size_, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
                                 byte_count(image), image.pixels.data());
@@ -197,7 +184,7 @@ public:
     }
 
     Frame read_frame() override {
-        Current const current(*context_);
+        Current const current = session_.current();
         Frame frame{Image<Rgba8>(extent_), Image<Texel4>(extent_), Image<Texel4>(extent_)};
         if (frame.colour.pixels.empty()) return frame;
         auto const read = [this](GLuint texture, GLenum type, auto& image) {
@@ -210,7 +197,7 @@ public:
     }
 
     Image<float> read_eye_depth() override {
-        Current const current(*context_);
+        Current const current = session_.current();
         Image<float> image(fit_extent_);
         if (!image.pixels.empty())
             gl_->GetTextureImage(resources_->eye_depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, byte_count(image),
@@ -220,13 +207,13 @@ public:
 
     std::vector<MapConstants> read_fit() override {
         demand_none(fault_of_fitted(true, resources_->fitted_maps.has_value()));
-        Current const current(*context_);
+        Current const current = session_.current();
         std::vector<MapConstants> maps(max_maps);
         resources_->compute.read(*resources_->fitted_maps, std::as_writable_bytes(std::span(maps)));
         return maps;
     }
 
-    std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
+    std::vector<std::string> take_messages() override { return session_.take_messages(); }
 
 private:
     template <class Pixel>
@@ -413,9 +400,8 @@ private:
         return work;
     }
 
-    std::vector<std::string> messages_;
-    std::unique_ptr<Context> context_;
-    std::optional<Procs> gl_;
+    Session session_;  // dies last of all that follows
+    Procs const* gl_;
     std::optional<Resources> resources_;
     std::vector<Object> objects_;
     int map_size_ = 0;
@@ -427,8 +413,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Backend> make_gl_backend(GlContextKind kind, GlShaders shaders) {
-    return std::make_unique<GlBackend>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context(),
-                                       shaders);
+    return std::make_unique<GlBackend>(kind, shaders);
 }
 
 }  // namespace shadowmath::backend
