@@ -7,6 +7,7 @@
 #include <shadowmath/view_volume.hpp>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -35,7 +36,7 @@ glm::dvec3 line(glm::dvec2 a, glm::dvec2 b) {
 }
 
 // Of any warp and any shear.
-Quad<double> quad_of(Corners const& c) {
+Quad<double> quad_through(Corners const& c) {
     glm::dvec2 const middle = (c[0] + c[1] + c[2] + c[3]) / 4.0;
     std::array<glm::dvec2, 4> p{};
     for (std::size_t i = 0; i < 4; ++i) p[i] = c[i] - middle;
@@ -43,10 +44,6 @@ Quad<double> quad_of(Corners const& c) {
     for (glm::dvec3& side : sides)
         if (side.z < 0.0) side = -side;
     return moved(quad_between(sides, 1e6, 1e6), middle);
-}
-
-double weight_free_price(double major) {
-    return price_of(major);
 }
 
 struct Sample {
@@ -72,7 +69,7 @@ double major_in(Quad<double> const& quad, double usable_texels, LightPixel const
 
 // The quadrilateral of least price around some samples, among sixteen rectangles.
 Corners rectangle_around(std::vector<Sample> const& samples, std::vector<std::size_t> const& which,
-                         double usable_texels, Random& random) {
+                         double usable_texels) {
     glm::dvec2 mean(0.0);
     for (std::size_t const i : which) mean += samples[i].pixel.place / double(which.size());
     double xx = 0.0, xy = 0.0, yy = 0.0;
@@ -97,7 +94,7 @@ Corners rectangle_around(std::vector<Sample> const& samples, std::vector<std::si
         hi += room;
         auto const at = [&](double x, double y) { return mean + a * x + b * y; };
         Corners const corners{at(lo.x, lo.y), at(hi.x, lo.y), at(lo.x, hi.y), at(hi.x, hi.y)};
-        Quad<double> const quad = quad_of(corners);
+        Quad<double> const quad = quad_through(corners);
         if (!quad.visible) continue;
         double price = 0.0;
         std::size_t const stride = 1 + which.size() / 64;
@@ -108,7 +105,6 @@ Corners rectangle_around(std::vector<Sample> const& samples, std::vector<std::si
             best = corners;
         }
     }
-    static_cast<void>(random);
     return best;
 }
 
@@ -198,20 +194,19 @@ private:
         double sum = 0.0;
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             if (!(major[i] < nothing)) return nothing;
-            sum += samples_[i].weight * (aim_ == Aim::mean ? major[i] : weight_free_price(major[i]));
+            sum += samples_[i].weight * (aim_ == Aim::mean ? major[i] : price_of(major[i]));
         }
         return sum / total_;
     }
 
-    void judge_map(std::size_t map, Quad<double> const& quad, std::vector<double>& into) const {
-        static_cast<void>(map);
+    void judge_map(Quad<double> const& quad, std::vector<double>& into) const {
         for (std::size_t i = 0; i < samples_.size(); ++i) into[i] = major_in(quad, usable_, samples_[i].pixel);
     }
 
     bool settle() {
         if (quads_.empty()) return false;
         majors_.assign(quads_.size(), std::vector<double>(samples_.size()));
-        for (std::size_t k = 0; k < quads_.size(); ++k) judge_map(k, quads_[k], majors_[k]);
+        for (std::size_t k = 0; k < quads_.size(); ++k) judge_map(quads_[k], majors_[k]);
         least_.assign(samples_.size(), nothing);
         for (auto const& majors : majors_)
             for (std::size_t i = 0; i < majors.size(); ++i) least_[i] = std::min(least_[i], majors[i]);
@@ -229,7 +224,7 @@ private:
             Corners corners{};
             for (std::size_t i = 0; i < 4; ++i) corners[i] = middle + (quad.corner[i] - middle) * 1.01;
             corners_.push_back(corners);
-            quad = quad_of(corners);
+            quad = quad_through(corners);
             if (!quad.visible) return false;
         }
         cover();
@@ -250,8 +245,8 @@ private:
             if (area(quads_[k]) > area(quads_[largest])) largest = k;
         for (std::size_t i = 0; i < samples_.size(); ++i)
             if (major_in(quads_[largest], usable_, samples_[i].pixel) < nothing) lost.push_back(i);
-        corners_[largest] = rectangle_around(samples_, lost, usable_, random_);
-        quads_[largest] = quad_of(corners_[largest]);
+        corners_[largest] = rectangle_around(samples_, lost, usable_);
+        quads_[largest] = quad_through(corners_[largest]);
     }
 
     // Clusters by some features of a pixel, each with a weight drawn at random.
@@ -309,8 +304,8 @@ private:
             for (std::size_t i = 0; i < of.size(); ++i)
                 if (of[i] == k) own.push_back(i);
             if (own.empty()) own.push_back(random_() % of.size());
-            Corners const corners = rectangle_around(samples_, own, usable_, random_);
-            Quad<double> const quad = quad_of(corners);
+            Corners const corners = rectangle_around(samples_, own, usable_);
+            Quad<double> const quad = quad_through(corners);
             if (!quad.visible) return false;
             corners_.push_back(corners);
             quads_.push_back(quad);
@@ -363,9 +358,9 @@ private:
             std::size_t const k = random_() % quads_.size();
             double const size = std::exp(-1.0 - 8.0 * uniform(random_));
             Corners const corners = moved_corners(corners_[k], size);
-            Quad<double> const quad = quad_of(corners);
+            Quad<double> const quad = quad_through(corners);
             if (!quad.visible) continue;
-            judge_map(k, quad, tried);
+            judge_map(quad, tried);
             bool held = true;
             for (std::size_t i = 0; i < samples_.size(); ++i) {
                 double one = tried[i];
@@ -436,6 +431,26 @@ std::vector<LightPixel> light_pixels(std::vector<SurfacePoint<double>> const& su
         if (depth > 0.0 && lean > 0.0) pixels.push_back(pixel);
     }
     return pixels;
+}
+
+Quad<double> quad_of(glm::dmat4 const& clip_from_world, scenes::View const& view, double share) {
+    LightBasis<double> const basis = light_basis(view.light_travel);
+    glm::dmat4 const rows = glm::transpose(clip_from_world);
+    auto const on_plane = [&](glm::dvec4 const& row) {
+        glm::dvec3 const n(row);
+        return glm::dvec3(glm::dot(n, basis.x), glm::dot(n, basis.y), row.w + glm::dot(n, view.eye));
+    };
+    Quad<double> quad;
+    quad.x = on_plane(rows[0]) / share;
+    quad.y = on_plane(rows[1]) / share;
+    quad.w = on_plane(rows[3]);
+    for (unsigned i = 0; i < 4; ++i) {
+        double const x = (i & 1u) != 0 ? 1.0 : -1.0, y = (i & 2u) != 0 ? 1.0 : -1.0;
+        glm::dvec3 const corner = glm::cross(quad.x - x * quad.w, quad.y - y * quad.w);
+        quad.corner[i] = glm::dvec2(corner) / corner.z;
+    }
+    quad.visible = true;
+    return quad;
 }
 
 Found measured(std::vector<LightPixel> const& pixels, std::vector<Quad<double>> const& maps, double usable_texels) {

@@ -34,6 +34,9 @@ struct LightPixel {
 [[nodiscard]] std::vector<LightPixel> light_pixels(std::vector<SurfacePoint<double>> const& surfaces,
                                                    scenes::View const& view, backend::Extent extent);
 
+// The quadrilateral that a sun's map serves with its middle `share` of texels along a side.
+[[nodiscard]] Quad<double> quad_of(glm::dmat4 const& clip_from_world, scenes::View const& view, double share);
+
 enum class Aim : std::uint8_t {
     mean,     // of the footprints
     p95,      // their 95th percentile
