@@ -51,8 +51,7 @@ void maps_for_depths(MapSet& set, Input const& in) {
             if (depth > 0.0 && depth <= in.seen.z_far) depths.add(x, y, depth);
         }
     auto const work = std::make_unique<MapSearch<double>>();
-    take(set, in,
-         choose_maps<double>(in.seen, in.light, in.casters, nullptr, 0, depths.tiles(), limits_of(in), *work));
+    take(set, in, choose_maps<double>(in.seen, in.light, in.casters, nullptr, 0, depths.tiles(), limits_of(in), *work));
 }
 
 }  // namespace shadowmath::gallery

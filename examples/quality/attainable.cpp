@@ -160,7 +160,8 @@ private:
         if (count == 0.0) return;
         double carried = uniform(random_);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            double const expected = std::min(1.0, wanted * (0.5 / count + 0.25 * cost[i] / sum + 0.25 * even[i] / even_sum));
+            double const expected =
+                std::min(1.0, wanted * (0.5 / count + 0.25 * cost[i] / sum + 0.25 * even[i] / even_sum));
             carried += expected;
             if (carried < 1.0) continue;
             carried -= 1.0;
@@ -171,8 +172,8 @@ private:
         // What lies on the rim of all pixels must be inside, too: the far ones in 32 directions weigh nothing.
         for (int k = 0; k < 32; ++k) {
             glm::dvec2 const d(std::cos(0.19634954 * k), std::sin(0.19634954 * k));
-            auto const far = std::ranges::max_element(
-                pixels, {}, [&](LightPixel const& pixel) { return glm::dot(pixel.place, d); });
+            auto const far =
+                std::ranges::max_element(pixels, {}, [&](LightPixel const& pixel) { return glm::dot(pixel.place, d); });
             samples_.push_back({*far, 0.0});
         }
     }
@@ -266,7 +267,7 @@ private:
             double const twice = std::atan2(2.0 * b, a - c);
             double const det = std::abs(p.gain_x.x * p.gain_y.y - p.gain_x.y * p.gain_y.x);
             double const ratio = std::log((a + c) / std::max(det, 1e-12));
-            at[i] = {p.seen.x, p.seen.y, std::log(p.seen.z), std::cos(twice) * ratio, std::sin(twice) * ratio,
+            at[i] = {p.seen.x, p.seen.y,       std::log(p.seen.z), std::cos(twice) * ratio, std::sin(twice) * ratio,
                      ratio,    std::log(a + c)};
             for (std::size_t f = 0; f < features; ++f) mean[f] += at[i][f] / double(samples_.size());
         }
@@ -374,7 +375,8 @@ private:
             }
             if (!held) continue;
             double const value = value_of(least);
-            bool const take = value < value_ || (heat > 0.0 && uniform(random_) < std::exp((value_ - value) / (heat * value_)));
+            bool const take =
+                value < value_ || (heat > 0.0 && uniform(random_) < std::exp((value_ - value) / (heat * value_)));
             if (!take) continue;
             corners_[k] = corners;
             quads_[k] = quad;

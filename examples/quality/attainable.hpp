@@ -25,7 +25,7 @@ namespace shadowmath::quality {
 
 // A pixel as the light sees it: nothing of it is clamped, unlike the samples of the library's own search.
 struct LightPixel {
-    glm::dvec2 place{0.0};  // metres of the light's plane, from the eye
+    glm::dvec2 place{0.0};                // metres of the light's plane, from the eye
     glm::dvec2 gain_x{0.0}, gain_y{0.0};  // eye pixels for a metre of the plane along its axes, on the surface
     glm::dvec3 seen{0.0};                 // side x, side y, eye depth
 };
@@ -38,8 +38,8 @@ struct LightPixel {
 [[nodiscard]] Quad<double> quad_of(glm::dmat4 const& clip_from_world, scenes::View const& view, double share);
 
 enum class Aim : std::uint8_t {
-    mean,     // of the footprints
-    p95,      // their 95th percentile
+    mean,         // of the footprints
+    p95,          // their 95th percentile
     fewest_wrong  // the mean of price_of
 };
 
@@ -47,13 +47,13 @@ struct Found {
     std::vector<Quad<double>> maps;  // finest first
     double mean = 0.0, p95 = 0.0;    // eye pixels a texel, over all pixels; those in no map are left out
     double price = 0.0;
-    double unmapped = 0.0;           // share of pixels
+    double unmapped = 0.0;  // share of pixels
 };
 
 struct SearchEffort {
-    int restarts = 6;        // beside one from the given maps
-    int steps = 40000;       // of each
-    int samples = 3000;      // pixels that it looks at
+    int restarts = 6;    // beside one from the given maps
+    int steps = 40000;   // of each
+    int samples = 3000;  // pixels that it looks at
     std::uint64_t seed = 1;
 };
 

@@ -106,7 +106,8 @@ std::optional<View> drawn_around(View const& front, oracle::RayOracle const& ora
 
 std::vector<View> fresh_views(scenes::NamedScene const& named, oracle::RayOracle const& oracle, std::uint64_t seed) {
     std::uint64_t of_name = seed;
-    for (char const c : named.scene.name) of_name = scenes::mix_bits(of_name + std::uint64_t(static_cast<unsigned char>(c)));
+    for (char const c : named.scene.name)
+        of_name = scenes::mix_bits(of_name + std::uint64_t(static_cast<unsigned char>(c)));
     Random random(of_name);
     bool const built_in = std::ranges::count(scenes::scene_names(), named.scene.name) > 0;
     double const farthest = named.scene.name == "town" ? 800.0 : 150.0;

@@ -130,19 +130,16 @@ Fitted options_from_depth(Input const& in) {
 }
 
 Fitted sampled(Input const& in, SampleSplits kind) {
-    SampleDepths<double> depths = no_depths(in.seen.z_near, in.seen.z_far);
-    for (auto const& sample : in.coarse.points) add(depths, eye_depth(in.seen, sample.point));
-    SampleBounds<double> bounds = no_bounds(sample_splits(depths, map_count, kind, 1.25), 0.0);
     DepthTiles<double> const tiles = in.coarse.depths.tiles();
+    int const count = tiles.width * tiles.height;
+    SampleDepths<double> depths = no_depths(in.seen.z_near, in.seen.z_far);
+    for (int i = 0; i < count; ++i)
+        if (tiles.nearest[i] <= tiles.farthest[i])
+            for (double const depth : {tiles.nearest[i], tiles.farthest[i]}) add(depths, depth);
+    SampleBounds<double> bounds = no_bounds(sample_splits(depths, map_count, kind, 1.25), 0.0);
     SampleRays<double> const rays = sample_rays(in.eye, in.light, tiles.width, tiles.height);
-    Pose<double> const& pose = in.eye.pose;
-    for (auto const& sample : in.coarse.points) {
-        glm::dvec3 const p = sample.point - pose.position;
-        double const depth = glm::dot(pose.forward, p);
-        glm::dvec2 const side(glm::dot(pose.right, p) / depth, glm::dot(pose.up, p) / depth);
-        glm::dvec2 const pixel = (side - rays.first) / rays.step + 0.5;
-        add(bounds, rays, int(std::floor(pixel.x)), int(std::floor(pixel.y)), depth);
-    }
+    for (int i = 0; i < count; ++i)
+        add_tile(bounds, rays, i % tiles.width, i / tiles.width, tiles.nearest[i], tiles.farthest[i]);
     SampleFitOptions<double> options;
     options.map_size = map_size;
     options.margin_texels = margin_texels;
@@ -201,9 +198,8 @@ Fitted with(Input const& in, ChosenMaps<double> const& chosen) {
 Fitted chosen_from_depth(Input const& in) {
     static MapSearch<double> work;
     MapLimits<double> const limits = limits_of(in);
-    ChosenMaps<double> const chosen = choose_maps(
-        in.seen, in.light, in.casters, in.coarse.points.data(), int(in.coarse.points.size()), in.coarse.depths.tiles(),
-        limits, work);
+    ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.coarse.points.data(),
+                                                  int(in.coarse.points.size()), in.coarse.depths.tiles(), limits, work);
     return with(in, chosen);
 }
 

@@ -37,7 +37,8 @@ std::string identity(backend::Scene const& scene, scenes::View const& view, back
     };
     for (backend::Vertex const& vertex : scene.vertices) add(&vertex.position, sizeof vertex.position);
     add(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t));
-    std::string text = "truth 2 " + std::to_string(sum) + " " + std::to_string(extent.width) + "x" + std::to_string(extent.height);
+    std::string text =
+        "truth 2 " + std::to_string(sum) + " " + std::to_string(extent.width) + "x" + std::to_string(extent.height);
     for (double const number :
          {view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, view.light_travel.x,
           view.light_travel.y, view.light_travel.z, view.shadow_distance, view.fov_y_radians})
@@ -183,7 +184,8 @@ private:
         std::vector<LightPixel> const pixels = light_pixels(surfaces, view, settings_.extent);
         double const usable = usable_texels(map_size, gallery::filter_radius + 1.0);
         std::vector<Quad<double>> start;
-        for (gallery::Map const& map : maps.maps) start.push_back(quad_of(map.clip_from_world, view, usable / map_size));
+        for (gallery::Map const& map : maps.maps)
+            start.push_back(quad_of(map.clip_from_world, view, usable / map_size));
         SearchEffort effort;
         effort.steps = settings_.search_steps;
         return {searched(pixels, start, Aim::mean, map_count, usable, effort).mean,

@@ -42,7 +42,7 @@ struct SettlingPiece {
 // What one map makes of them all.
 template <class T>
 struct SettlingView {
-    std::array<T, max_search_samples> price;               // of each sample; below 0: not in the map
+    std::array<T, max_search_samples> price;              // of each sample; below 0: not in the map
     std::array<std::uint8_t, max_settling_pieces> holds;  // each piece
 };
 

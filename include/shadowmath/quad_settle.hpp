@@ -247,6 +247,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
         for (int i = 0; i < count; ++i) piece.point[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
     };
     constexpr int at_rim = quad_directions * max_chosen_maps, even = max_settling_pieces - at_rim;
+    Supports<T> const around = no_supports(SampleFrame<T>{});
     int const stride = (all + even - 1) / even;
     for_each_part([&](ViewPart<T> const& part) {
         std::array<T, quad_directions> reach;
@@ -258,8 +259,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
         cover(part, [&](Vec3<T> const* points, int count) {
             if (count > max_piece_points) return;
             for (unsigned d = 0; d < quad_directions; ++d) {
-                T const angle = T(6.28318530717958647692L) * T(d) / T(quad_directions);
-                Vec2<T> const way(std::cos(angle), std::sin(angle));
+                Vec2<T> const& way = around.direction[d];
                 T farthest = std::numeric_limits<T>::lowest();
                 for (int i = 0; i < count; ++i) {
                     T const here = way.x * points[i].x + way.y * points[i].y;
