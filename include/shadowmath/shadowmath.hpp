@@ -76,6 +76,7 @@
 #include <shadowmath/light_samples.hpp>
 #include <shadowmath/part_search.hpp>
 #include <shadowmath/quad_map.hpp>
+#include <shadowmath/quad_settle.hpp>
 #include <shadowmath/quad_stack.hpp>
 
 // The same for what is seen, pixel by pixel.

@@ -89,6 +89,7 @@ int every_overloaded_function() noexcept {
     add(depths, depths);
     SampleBounds<T> bounds = no_bounds(sample_splits(depths, 4, SampleSplits::adaptive));
     add(bounds, SampleRays<T>{}, 0, 0, T(2));
+    add_tile(bounds, SampleRays<T>{}, 0, 0, T(2), T(3));
     add(bounds, bounds);
     auto const stored_depth = [](int, int) { return T(1); };
     count += filtered(Receiver<T>{}, 16, gl_clip, FilterOptions{}, stored_depth) > T(0);
