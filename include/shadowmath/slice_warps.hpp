@@ -99,79 +99,111 @@ struct CutAlong {
 // The light that a map gets, a map to a lane: between y_lo and y_hi, and between x_lo w and x_hi w.
 template <class T>
 struct ShaftsOfLight {
-    using Four = Lanes<T>;
-    LightBasis<T> const& axes;
-    Four x_lo, x_hi, y_lo, y_hi;
-    Four w_slope, w_offset;  // w = w_slope y + w_offset
+    Lanes<T> x_lo, x_hi, y_lo, y_hi;
+    Lanes<T> w_slope, w_offset;  // w = w_slope y + w_offset
+};
 
-    // Metres along the light at which it first meets the box (relative to the eye, no farther out than `reach`); the
-    // largest number where it does not. No more than rounding before that.
-    [[nodiscard, gnu::always_inline]] Four first_met(Aabb<T> const& box, Four const& reach) const noexcept {
-        constexpr T unsure = T(8) * std::numeric_limits<T>::epsilon(), none = T(1e37);
-        Four const zero = all_four(T(0)), back = zero - reach;
-        Four end[3][2], size = zero;
-        for (int k = 0; k < 3; ++k) {
-            end[k][0] = largest(all_four(box.lo[k]), back), end[k][1] = least(all_four(box.hi[k]), reach);
-            size = size + largest(absolute(end[k][0]), absolute(end[k][1]));
-        }
-        Four const rounding = size * all_four(unsure), lo_slope = x_lo * w_slope, hi_slope = x_hi * w_slope;
-        auto const offset_of = [&](Four const& side, Four const& slope) {
-            return rounding * (all_four(T(1)) + absolute(slope)) +
-                   absolute(side) * (absolute(w_offset) * all_four(unsure));
-        };
-        Four const lo_wider = offset_of(x_lo, lo_slope), hi_wider = offset_of(x_hi, hi_slope);
-        Four const lo_offset = lo_wider - x_lo * w_offset, hi_offset = hi_wider + x_hi * w_offset;
-        // What each end of the box adds to y, to how far it is inside either side, and to depth.
-        Four y[3][2], above[3][2], below[3][2], along[3][2], above_growth[3], below_growth[3];
-        Four box_y_lo = zero - rounding, box_y_hi = rounding;
-        for (int k = 0; k < 3; ++k) {
-            above_growth[k] = all_four(axes.x[k]) - lo_slope * all_four(axes.y[k]);
-            below_growth[k] = hi_slope * all_four(axes.y[k]) - all_four(axes.x[k]);
-            for (int side = 0; side < 2; ++side) {
-                y[k][side] = end[k][side] * all_four(axes.y[k]);
-                above[k][side] = end[k][side] * above_growth[k], below[k][side] = end[k][side] * below_growth[k];
-                along[k][side] = end[k][side] * all_four(axes.depth[k]);
-            }
-            box_y_lo = box_y_lo + least(y[k][0], y[k][1]), box_y_hi = box_y_hi + largest(y[k][0], y[k][1]);
-        }
-        Four const from_y = largest(y_lo - rounding, box_y_lo), to_y = least(y_hi + rounding, box_y_hi);
+// Where such light first meets a box: on one of the three faces that it falls on, so on one of their nine edges, or
+// where one of the shaft's own four edges enters the box.
+template <class T>
+struct LightOnBox {
+    using Four = Lanes<T>;
+    static constexpr T none = T(1e37);
+
+    // In the mirror, along every axis of the box that the light goes down: then it goes up all of them.
+    Vec3<T> across, upward, travel;
+    Four lo[3], hi[3], rounding;  // of the box
+    // What the lower and the upper end of the box add to y, and to how far it is inside either side.
+    Four y[3][2], above[3][2], below[3][2], above_growth[3], below_growth[3];
+    Four from_y, to_y, middle_y, half_y, lo_wider, hi_wider, lo_offset, hi_offset;
+
+    // `box`: relative to the eye, and taken no farther out than `reach`.
+    [[gnu::always_inline]] LightOnBox(ShaftsOfLight<T> const& shafts, LightBasis<T> const& axes, Aabb<T> const& box,
+                                      Four const& reach) noexcept
+        : across(axes.x), upward(axes.y), travel(axes.depth) {
+        constexpr T unsure = T(8) * std::numeric_limits<T>::epsilon();
+        Four const zero = all_four(T(0)), back = zero - reach, half = all_four(T(0.5));
+        Four const lo_slope = shafts.x_lo * shafts.w_slope, hi_slope = shafts.x_hi * shafts.w_slope;
+        add_axis<0>(box, back, reach, lo_slope, hi_slope);
+        add_axis<1>(box, back, reach, lo_slope, hi_slope);
+        add_axis<2>(box, back, reach, lo_slope, hi_slope);
+        auto const farther = [](Four const& a, Four const& b) { return largest(absolute(a), absolute(b)); };
+        rounding = (farther(lo[0], hi[0]) + farther(lo[1], hi[1]) + farther(lo[2], hi[2])) * all_four(unsure);
+        Four const of_offset = absolute(shafts.w_offset) * all_four(unsure);
+        lo_wider = rounding + absolute(lo_slope) * rounding + absolute(shafts.x_lo) * of_offset;
+        hi_wider = rounding + absolute(hi_slope) * rounding + absolute(shafts.x_hi) * of_offset;
+        lo_offset = lo_wider - shafts.x_lo * shafts.w_offset, hi_offset = hi_wider + shafts.x_hi * shafts.w_offset;
+        Four const y_lo = least(y[0][0], y[0][1]) + least(y[1][0], y[1][1]) + least(y[2][0], y[2][1]);
+        Four const y_hi = largest(y[0][0], y[0][1]) + largest(y[1][0], y[1][1]) + largest(y[2][0], y[2][1]);
+        from_y = largest(shafts.y_lo, y_lo) - rounding, to_y = least(shafts.y_hi, y_hi) + rounding;
+        middle_y = (from_y + to_y) * half, half_y = (to_y - from_y) * half;
+    }
+    template <int k>
+    [[gnu::always_inline]] void add_axis(Aabb<T> const& box, Four const& back, Four const& reach, Four const& lo_slope,
+                                         Four const& hi_slope) noexcept {
+        bool const down = travel[k] < T(0);
+        across[k] = down ? -across[k] : across[k];
+        upward[k] = down ? -upward[k] : upward[k];
+        travel[k] = std::abs(travel[k]);
+        lo[k] = largest(all_four(down ? -box.hi[k] : box.lo[k]), back);
+        hi[k] = least(all_four(down ? -box.lo[k] : box.hi[k]), reach);
+        Four const x_of = all_four(across[k]), y_of = all_four(upward[k]);
+        above_growth[k] = x_of - lo_slope * y_of, below_growth[k] = hi_slope * y_of - x_of;
+        y[k][0] = lo[k] * y_of, y[k][1] = hi[k] * y_of;
+        above[k][0] = lo[k] * above_growth[k], above[k][1] = hi[k] * above_growth[k];
+        below[k][0] = lo[k] * below_growth[k], below[k][1] = hi[k] * below_growth[k];
+    }
+
+    // Of the edge along axis k at the lower (0) or upper (1) ends of the two others.
+    template <int k, int a, int b>
+    [[gnu::always_inline]] void meet_edge(Four const& inverse_y, Four const& reach_y, CutAlong<T> const& by_above,
+                                          CutAlong<T> const& by_below, Four& first_of_all) const noexcept {
+        constexpr int u = (k + 1) % 3, v = (k + 2) % 3;
+        Four const at = (middle_y - (y[u][a] + y[v][b])) * inverse_y;
+        Four first = largest(lo[k], at - reach_y), last = least(hi[k], at + reach_y);
+        by_above.cut(above[u][a] + (above[v][b] + lo_offset), first, last);
+        by_below.cut(below[u][a] + (below[v][b] + hi_offset), first, last);
+        Four const depth = (a == 0 ? lo[u] : hi[u]) * all_four(travel[u]) +
+                           (b == 0 ? lo[v] : hi[v]) * all_four(travel[v]) + first * all_four(travel[k]);
+        first_of_all = least(first_of_all, where_at_most(first, last, depth, all_four(none)));
+    }
+    template <int k>
+    [[gnu::always_inline]] void meet_edges(Four& first_of_all) const noexcept {
+        T const per_y = T(1) / not_zero(upward[k]);
+        Four const inverse_y = all_four(per_y), reach_y = half_y * all_four(std::abs(per_y));
+        CutAlong<T> const by_above(above_growth[k]), by_below(below_growth[k]);
+        meet_edge<k, 0, 0>(inverse_y, reach_y, by_above, by_below, first_of_all);
+        meet_edge<k, 0, 1>(inverse_y, reach_y, by_above, by_below, first_of_all);
+        meet_edge<k, 1, 0>(inverse_y, reach_y, by_above, by_below, first_of_all);
+    }
+    template <int k>
+    [[gnu::always_inline]] void enter(Four const& at_x, Four const& at_y, T per_step, Four& first,
+                                      Four& last) const noexcept {
+        Four const at = at_x * all_four(across[k]) + at_y * all_four(upward[k]);
+        first = largest(first, (lo[k] - rounding - at) * all_four(per_step));
+        last = least(last, (hi[k] + rounding - at) * all_four(per_step));
+    }
+    [[gnu::always_inline]] void meet_corner(Four const& at_x, Four const& at_y, Vec3<T> const& per_step,
+                                            Four& first_of_all) const noexcept {
+        Four first = all_four(-none), last = all_four(none);
+        enter<0>(at_x, at_y, per_step.x, first, last);
+        enter<1>(at_x, at_y, per_step.y, first, last);
+        enter<2>(at_x, at_y, per_step.z, first, last);
+        first_of_all = least(first_of_all, where_at_most(first, last, first, all_four(none)));
+    }
+    // Metres along the light, less by rounding; the largest number where it meets nothing.
+    [[nodiscard, gnu::always_inline]] Four first_met(ShaftsOfLight<T> const& shafts) const noexcept {
         Four first_of_all = all_four(none);
-        // Edges of the box, four to an axis.
-        for (int k = 0; k < 3; ++k) {
-            int const u = (k + 1) % 3, v = (k + 2) % 3;
-            Four const per_y = all_four(T(1) / not_zero(axes.y[k])), ahead = all_four(axes.depth[k]);
-            CutAlong<T> const by_above(above_growth[k]), by_below(below_growth[k]);
-            for (int edge = 0; edge < 4; ++edge) {
-                int const a = edge & 1, b = edge >> 1;
-                Four const at_y = y[u][a] + y[v][b];
-                Four const enter = (from_y - at_y) * per_y, leave = (to_y - at_y) * per_y;
-                Four first = largest(end[k][0], least(enter, leave)), last = least(end[k][1], largest(enter, leave));
-                by_above.cut(above[u][a] + above[v][b] + lo_offset, first, last);
-                by_below.cut(below[u][a] + below[v][b] + hi_offset, first, last);
-                Four const depth = along[u][a] + along[v][b] + least(first * ahead, last * ahead);
-                first_of_all = least(first_of_all, where_at_most(first, last, depth, all_four(none)));
-            }
-        }
-        // Edges of the shaft, which go along the light.
-        Four inverse[3];
-        for (int k = 0; k < 3; ++k) inverse[k] = all_four(T(1) / not_zero(axes.depth[k]));
-        for (int edge = 0; edge < 4; ++edge) {
-            Four const& at_y = (edge & 1) == 0 ? from_y : to_y;
-            Four const w = w_offset + w_slope * at_y;
-            Four const at_x = (edge >> 1) == 0 ? x_lo * w - lo_wider : x_hi * w + hi_wider;
-            Four first = all_four(-none), last = all_four(none);
-            for (int k = 0; k < 3; ++k) {
-                Four const at = at_x * all_four(axes.x[k]) + at_y * all_four(axes.y[k]);
-                Four const enter = (end[k][0] - rounding - at) * inverse[k];
-                Four const leave = (end[k][1] + rounding - at) * inverse[k];
-                first = largest(first, least(enter, leave)), last = least(last, largest(enter, leave));
-            }
-            first_of_all = least(first_of_all, where_at_most(first, last, first, all_four(none)));
-        }
+        meet_edges<0>(first_of_all), meet_edges<1>(first_of_all), meet_edges<2>(first_of_all);
+        Vec3<T> const per_step(T(1) / not_zero(travel.x), T(1) / not_zero(travel.y), T(1) / not_zero(travel.z));
+        Four const w_lo = shafts.w_offset + shafts.w_slope * from_y, w_hi = shafts.w_offset + shafts.w_slope * to_y;
+        meet_corner(shafts.x_lo * w_lo - lo_wider, from_y, per_step, first_of_all);
+        meet_corner(shafts.x_hi * w_lo + hi_wider, from_y, per_step, first_of_all);
+        meet_corner(shafts.x_lo * w_hi - lo_wider, to_y, per_step, first_of_all);
+        meet_corner(shafts.x_hi * w_hi + hi_wider, to_y, per_step, first_of_all);
         // Boxes that are none have edges all the same.
-        for (int k = 0; k < 3; ++k)
-            first_of_all = where_at_most(end[k][0], end[k][1], first_of_all, all_four(none));
-        return where_at_most(from_y, to_y, first_of_all, all_four(none)) - rounding;
+        Four const size = least(hi[0] - lo[0], least(hi[1] - lo[1], hi[2] - lo[2]));
+        return where_at_most(all_four(T(0)), least(size, half_y), first_of_all, all_four(none)) - rounding;
     }
 };
 
@@ -185,7 +217,7 @@ struct FourWarps {
     Four begin, end;  // of the slices, metres of eye depth
     Four strength;    // [0, 2]
     int count;
-    ShadowMap<T>* maps;
+    ShadowMap<T>* const* maps;
 
     static constexpr T none = T(1e37);
 
@@ -315,8 +347,8 @@ struct FourWarps {
         for (int i = 0; i < count; ++i) {
             BeyondReach<T> infinite;
             for (int column = 0; column < 4; ++column) {
-                static_assert(sizeof columns[0][0] == sizeof maps[0].clip_from_world[0], "columns without a gap");
-                std::memcpy(&maps[i].clip_from_world[column], &columns[column][i], sizeof columns[0][0]);
+                static_assert(sizeof columns[0][0] == sizeof maps[0]->clip_from_world[0], "columns without a gap");
+                std::memcpy(&maps[i]->clip_from_world[column], &columns[column][i], sizeof columns[0][0]);
                 infinite.look_for_finite(columns[column][i]);
             }
             finite[i] = !infinite.any();
@@ -374,9 +406,9 @@ struct FourWarps {
         Four const below = largest(bottom / (one - bottom * centre), all(T(-0.5)) / largest(centre, all(T(1e-30))));
         Four const narrowing = one - top * centre - all(T(4) * eps);
         Four const above = where_at_most(all(T(1e-6)), narrowing, top / largest(narrowing, all(T(1e-6))), all(none));
-        ShaftsOfLight<T> const shafts{view.axes.basis, left,   right,   y_lo + below,
-                                      y_lo + above,    centre, w_offset};
-        Four const caster = shafts.first_met(view.casters, radius * all(T(1024)));
+        ShaftsOfLight<T> const shafts{left, right, y_lo + below, y_lo + above, centre, w_offset};
+        LightOnBox<T> const lit(shafts, view.axes.basis, view.casters, radius * all(T(1024)));
+        Four const caster = lit.first_met(shafts);
         // No receiver is farther from the light than this.
         Four const lowest = last + all(T(1e-3)) * (last - first) + largest(absolute(first), absolute(last)) *
                                                                        all(T(64) * eps);
@@ -411,7 +443,7 @@ struct FourWarps {
         };
         Four const steepest = root(largest(steep(x), steep(y))) * all(eps * eye_metres * view.size);
         for (int i = 0; i < count; ++i) {
-            ShadowMap<T>& map = maps[i];
+            ShadowMap<T>& map = *maps[i];
             map.clip = view.clip;
             map.faults = view.faults;
             map.w_min = T(0);
@@ -438,14 +470,25 @@ struct FourWarps {
     }
 };
 
-// False, and nothing written, where the numbers are none for it: then each map is to be made alone. `strength`: of each
-// map, in [0, 2]. After door().
+// What warps are made from, checked and mended.
 template <class T>
-[[nodiscard]] inline bool warp_slices(Door<T> const& in, SliceRange<T> const* ranges, T const* strengths, int count,
-                                      Aabb<T> const& casters, Aabb<T> const& receivers, int map_size, T margin_texels,
-                                      ClipSpace clip, ShadowMap<T>* maps) noexcept {
+struct WarpInputs {
+    ViewVolume<T> const& view;
+    Vec3<T> travel;  // unit to the last bits
+    Faults faults;   // of every map
+    int map_size;
+    T margin_texels;
+    ClipSpace clip;
+};
+
+// False, and nothing written, where the numbers are none for it: then each map is to be made alone. `strengths`: of each
+// map, in [0, 2].
+template <class T>
+[[nodiscard]] inline bool warp_slices(WarpInputs<T> const& in, SliceRange<T> const* ranges, T const* strengths,
+                                      int count, Aabb<T> const& casters, Aabb<T> const& receivers,
+                                      ShadowMap<T>* const* maps) noexcept {
     WarpsOfView<T> view;
-    view.axes = warp_axes(in.view.pose, in.light.direction);
+    view.axes = warp_axes(in.view.pose, in.travel);
     view.seen.pose = &in.view.pose;
     if (!look(view.axes.basis, in.view, view.seen.lit) ||
         !look_at_box(in.view, ranges[count - 1].end, receivers, view.seen))
@@ -453,10 +496,10 @@ template <class T>
     view.eye = in.view.pose.position;
     view.casters = {casters.lo - view.eye, casters.hi - view.eye};
     view.faults = in.faults;
-    view.size = T(map_size);
-    T const margin = margin_texels > T(0) ? margin_texels : T(0);
+    view.size = T(in.map_size);
+    T const margin = in.margin_texels > T(0) ? in.margin_texels : T(0);
     view.margin = margin / (view.size - T(2) * margin);
-    view.clip = clip;
+    view.clip = in.clip;
     view.flat = in.view.kind == ViewKind::orthographic;
     for (int start = 0; start < count; start += 4) {
         int const left = count - start < 4 ? count - start : 4;
@@ -496,13 +539,15 @@ template <class T>
                        all_finite(&options.coefficient, 1) && detail::in_range(splits);
     bool done = false;
     if (plain) {
-        ViewVolume<T> const seen = slice(view, {ranges[0].begin, T(0), ranges[splits.count - 1].end});
-        Door<T> in = door(seen, light, casters, receivers, options.map_size, options.margin_texels);
+        ShadowMap<T>* each[max_splits];
         T const strength = glm::clamp(options.strength, T(0), T(2));
-        if (strength != options.strength) in.faults |= Fault::clamped_option;
-        for (T& each : strengths) each = strength;
-        done = !in.stop && detail::warp_slices(in, ranges, strengths, splits.count, casters, receivers,
-                                               options.map_size, options.margin_texels, clip, maps);
+        for (int i = 0; i < splits.count; ++i) strengths[i] = strength, each[i] = maps + i;
+        ViewVolume<T> const seen = slice(view, {ranges[0].begin, T(0), ranges[splits.count - 1].end});
+        Door<T> const door = shadowmath::door(seen, light, casters, receivers, options.map_size, options.margin_texels);
+        Faults const clamped = strength != options.strength ? Faults(Fault::clamped_option) : Faults{};
+        detail::WarpInputs<T> const in{door.view,        door.light.direction,  door.faults | clamped,
+                                       options.map_size, options.margin_texels, clip};
+        done = !door.stop && detail::warp_slices(in, ranges, strengths, splits.count, casters, receivers, each);
     }
     std::uint32_t visible = 0;
     for (int i = 0; i < splits.count; ++i) {
