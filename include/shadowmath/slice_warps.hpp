@@ -530,6 +530,14 @@ template <class T>
                                                    Aabb<T> const& receivers, WarpOptions<T> const& options,
                                                    ClipSpace clip, ShadowMap<T>* maps) noexcept {
     if (splits.count < 1 || splits.count > max_splits) return 0;
+    if (!all_finite(splits.plane, splits.count + 1)) {
+        for (int i = 0; i < splits.count; ++i) {
+            maps[i] = {};
+            maps[i].clip = clip;
+            maps[i].faults = Fault::not_finite;
+        }
+        return 0;
+    }
     bool const usable_blend = all_finite(&blend, 1);
     SliceRange<T> ranges[max_splits];
     T strengths[max_splits];
