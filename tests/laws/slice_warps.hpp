@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace shadowmath::laws {
 
@@ -34,8 +35,9 @@ template <class T>
                                   box(receivers), exact, clip);
 }
 
-// A plane that is moved by d metres moves the end of a body that is s metres long by d / s of it. The warp follows: y by
-// d / a, and 1 / a by d / z_near of itself; a is no less than z_near / sine, and 4 of each are allowed.
+// A body whose ends are moved by d metres and that is s metres long is moved by d / s of it. The warp follows: y by d / a,
+// and 1 / a by d / z_near of itself; a is no less than z_near / sine, and 4 of each are allowed. d is what `metres`
+// between the planes make of the ends: more where planes meet at a small angle.
 template <class T>
 [[nodiscard]] Apart apart(ShadowMap<T> const& ours, ShadowMap<long double> const& twin, ViewVolume<T> const& part,
                           Light<T> const& light, Aabb<T> const& receivers, long double metres) {
@@ -57,6 +59,15 @@ template <class T>
         for (int axis = 0; axis < 2; ++axis)
             found.across = std::max(found.across, std::abs(a[axis] / a.w - b[axis] / b.w));
     });
+    detail::Extent<Real> wider_x, wider_y, wider_depth;
+    for_each_vertex(visible_body(exact, Aabb<Real>{Vec3<Real>(receivers.lo), Vec3<Real>(receivers.hi)}, metres),
+                    [&](Vec3<Real> const& p) {
+                        wider_x.add(glm::dot(axes.basis.x, p));
+                        wider_y.add(glm::dot(axes.basis.y, p));
+                        wider_depth.add(glm::dot(exact.pose.forward, p));
+                    });
+    for (auto const& [wide, tight] : {std::pair(wider_x, x), std::pair(wider_y, y), std::pair(wider_depth, depth)})
+        metres = std::max(metres, std::max(tight.lo - wide.lo, wide.hi - tight.hi));
     Real const narrow = std::min(x.hi - x.lo, y.hi - y.lo), nearest = std::max(depth.lo, exact.z_far / (1 << 20));
     Real const grows = exact.kind == ViewKind::perspective ? 1 + (y.hi - y.lo) * axes.sine / nearest : 1;
     found.allowed = 4 * metres * (2 / narrow * grows + axes.sine / nearest * grows);
