@@ -193,8 +193,9 @@ template <class T>
         in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
     }
     if (!in_range) return false;
-    WarpInputs<T> const in{seen, safe_normalize(light.direction).direction, faults_of(light), options.map_size,
-                           margin_texels, options.clip};
+    WarpInputs<T> const in{
+        seen,        safe_normalize(light.direction).direction, faults_of(light), options.map_size, margin_texels,
+        options.clip};
     return warp_slices(in, ranges, strengths, count, casters, receivers, maps);
 }
 

@@ -99,9 +99,7 @@ struct CutEdges {
     HalfStep<L> const& half;
     L first, last;
 
-    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept {
-        return origin + half.step * (first + last);
-    }
+    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept { return origin + half.step * (first + last); }
     // Steps; of one that is none, less than nothing by more than anything can be long.
     [[nodiscard, gnu::always_inline]] L length() const noexcept {
         return where_at_most(first, last, last - first, L::all(typename L::Scalar(-1e37)));

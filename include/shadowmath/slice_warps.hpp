@@ -242,8 +242,7 @@ struct FourWarps {
         Long const nothing = Long::all(none), at_near = spread<Long>(begin, i), at_far = spread<Long>(end, i);
         Reach reach;
         reach.extent = kept.keep(Kept::near_sides, i, edges.sides_at(at_near));
-        reach.ahead =
-            where_at_most(Long::all(T(0)), kept.at(kept.length, Kept::near_sides, i), at_near, nothing);
+        reach.ahead = where_at_most(Long::all(T(0)), kept.at(kept.length, Kept::near_sides, i), at_near, nothing);
         reach.extent.add(kept.keep(Kept::far_sides, i, edges.sides_at(at_far)));
         CutEdges<Long> const rays = edges.rays_in(i);
         reach.extent.add(kept.keep(Kept::rays, i, rays));
@@ -336,8 +335,7 @@ struct FourWarps {
                                       bool (&finite)[4]) const noexcept {
         Vec3<T> const& eye = view.eye;
         auto const moved = [&eye](Row const& row) {
-            return row.offset -
-                   (row.normal.x * all(eye.x) + row.normal.y * all(eye.y) + row.normal.z * all(eye.z));
+            return row.offset - (row.normal.x * all(eye.x) + row.normal.y * all(eye.y) + row.normal.z * all(eye.z));
         };
         Four columns[4][4] = {{x.normal.x, y.normal.x, z.normal.x, w.normal.x},
                               {x.normal.y, y.normal.y, z.normal.y, w.normal.y},
@@ -410,8 +408,8 @@ struct FourWarps {
         LightOnBox<T> const lit(shafts, view.axes.basis, view.casters, radius * all(T(1024)));
         Four const caster = lit.first_met(shafts);
         // No receiver is farther from the light than this.
-        Four const lowest = last + all(T(1e-3)) * (last - first) + largest(absolute(first), absolute(last)) *
-                                                                       all(T(64) * eps);
+        Four const lowest =
+            last + all(T(1e-3)) * (last - first) + largest(absolute(first), absolute(last)) * all(T(64) * eps);
         Four const depth_lo = where_at_most(caster, lowest, least(first, caster), first);
         Four const room = (last - depth_lo) * all(T(1) / T(1024)) + radius * all(T(64) * eps) + all(slack);
         Four const from = depth_lo - room, to = last + room;
@@ -421,7 +419,8 @@ struct FourWarps {
         Four const x_scale = all(T(2)) / (right - left), x_shift = (right + left) / (right - left);
         Row x{times(x_scale, across) + times(zero - centre * x_shift, up), zero - w_offset * x_shift};
         T const y_sign = view.clip.ndc_y == YAxis::up ? T(1) : T(-1);
-        Four const y_scale = all(y_sign * T(2)) / (top - bottom), y_shift = (top + bottom) / (top - bottom) * all(y_sign);
+        Four const y_scale = all(y_sign * T(2)) / (top - bottom),
+                   y_shift = (top + bottom) / (top - bottom) * all(y_sign);
         Row y{times(y_scale - centre * y_shift, up), zero - (y_lo * y_scale + w_offset * y_shift)};
         Row z;
         if (view.clip.depth == DepthOrder::one_to_zero) {
@@ -559,8 +558,7 @@ template <class T>
     }
     std::uint32_t visible = 0;
     for (int i = 0; i < splits.count; ++i) {
-        if (!done)
-            maps[i] = simple_perspective_map(slice(view, ranges[i]), light, casters, receivers, options, clip);
+        if (!done) maps[i] = simple_perspective_map(slice(view, ranges[i]), light, casters, receivers, options, clip);
         visible |= maps[i].visible ? 1u << i : 0u;
     }
     return visible;
