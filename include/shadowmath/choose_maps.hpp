@@ -33,6 +33,7 @@
 #include <shadowmath/part_search.hpp>
 #include <shadowmath/polytope.hpp>
 #include <shadowmath/quad_map.hpp>
+#include <shadowmath/quad_settle.hpp>
 #include <shadowmath/quad_stack.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/view_volume.hpp>
@@ -129,7 +130,7 @@ template <class T>
 template <class T, class Bound, class Cover>
 [[nodiscard]] inline ChosenMaps<T> search_maps(LightSampler<T> const& sampler, Aabb<T> const& casters,
                                                MapLimits<T> const& limits, MapSearch<T>& work, Bound const& bound,
-                                               Cover const& cover) noexcept {
+                                               Cover const& cover, bool piecewise) noexcept {
     ChosenMaps<T> chosen;
     if (work.count == 0) return chosen;
     PartSearch<T, Bound> search{work, bound, usable_texels(limits.map_size, limits.margin_texels), priced_samples};
@@ -149,6 +150,10 @@ template <class T, class Bound, class Cover>
         stack = candidate;
     }
     chosen.tried = search.tried;
+    if (piecewise) {
+        stack = settled(work, stack, search.usable_texels, cover);
+        least = price_in(stack, work, search.usable_texels);
+    }
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.
@@ -307,14 +312,15 @@ template <class T>
             LightSample<T> const& sample = work.sample[work.list[static_cast<unsigned>(i)]];
             add(supports, sample.place);
             Vec2<T> const tile = (Vec2<T>(sample.seen) - first) / size;
-            int const x = glm::clamp(static_cast<int>(tile.x), 0, tiles.width - 1);
-            int const y = glm::clamp(static_cast<int>(tile.y), 0, tiles.height - 1);
+            // One from outside the picture is as good as on its border.
+            int const x = static_cast<int>(std::fmin(std::fmax(tile.x, T(0)), T(tiles.width - 1)));
+            int const y = static_cast<int>(std::fmin(std::fmax(tile.y, T(0)), T(tiles.height - 1)));
             visit_tile(x, y, part, [&](Vec3<T> const* points, int point_count) {
                 for (int k = 0; k < point_count; ++k) add(supports, Vec2<T>(points[k]));
             });
         }
     };
-    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover, true);
     chosen.faults |= in.faults;
     return chosen;
 }
@@ -365,7 +371,7 @@ template <class T>
             for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
         });
     };
-    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover, false);
     chosen.faults |= in.faults;
     return chosen;
 }

@@ -42,6 +42,7 @@
 #include <shadowmath/plane_choice.hpp>
 #include <shadowmath/plane_set.hpp>
 #include <shadowmath/points.hpp>
+#include <shadowmath/slice_warps.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
@@ -76,6 +77,7 @@
 #include <shadowmath/light_samples.hpp>
 #include <shadowmath/part_search.hpp>
 #include <shadowmath/quad_map.hpp>
+#include <shadowmath/quad_settle.hpp>
 #include <shadowmath/quad_stack.hpp>
 
 // The same for what is seen, pixel by pixel.

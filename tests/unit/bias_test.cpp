@@ -113,6 +113,28 @@ TEST(BiasFor, MetresOfAPlainMapAreAConstantShareOfItsDepth) {
     EXPECT_EQ(bias.per_inverse_w, 0.0);
 }
 
+TEST(BiasFor, IsMadeForFloatsUnlessToldOtherwise) {
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    double const rounding = bias_for(overhead.map, overhead.light, 100, options).constant;
+    options.depth_step = BiasOptions<double>{}.depth_step;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).constant - rounding, 2 * 0x1p-23, 1e-15);
+}
+
+TEST(BiasFor, KnowsAMapOfOneTexel) {
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    options.metres = 0.2;
+    EXPECT_GE(bias_for(overhead.map, overhead.light, 1, options).constant, 0.2 / 40);
+    EXPECT_EQ(bias_for(overhead.map, overhead.light, 0, options).constant, 0.0);
+}
+
+TEST(NormalOffsetAt, IsZeroInAMapWithoutDepth) {
+    Overhead overhead;
+    for (int column = 0; column < 4; ++column) overhead.map.clip_from_world[column][2] = 0;
+    EXPECT_EQ(normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(0, 1, 0), 1.0), 0.0);
+}
+
 TEST(BiasFor, FlatTexelsAreTexelsOfAPlaneAtHalfARightAngle) {
     // A texel of 100 is 0.1 m wide; the map 40 m deep.
     Overhead const overhead;
