@@ -80,6 +80,7 @@ TYPED_TEST(SampleBoundsOf, ViewsAndLightsWithFaultsGiveNoRays) {
     EXPECT_TRUE(sample_rays(view, directional(Vec3<T>(0)), 2, 2).faults.has(Fault::zero_light));
     EXPECT_TRUE(sample_rays(view, spot(Vec3<T>(0), Vec3<T>(1), T(1), T(9)), 2, 2).faults.has(Fault::clamped_option));
     EXPECT_FALSE(sample_rays(view, Light<T>{}, 0, 2).usable);
+    EXPECT_TRUE(sample_rays(view, Light<T>{}, 1, 1).usable) << "a picture of one pixel";
     EXPECT_FALSE(sample_rays(view, Light<T>{}, 2, 0).usable);
     view.pose.position.x = T(1e20);
     EXPECT_TRUE(sample_rays(view, Light<T>{}, 2, 2).faults.has(Fault::precision_lost));

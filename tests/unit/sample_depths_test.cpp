@@ -104,6 +104,13 @@ TYPED_TEST(SampleDepthsOf, NaNSamplesAreCountedAndChangeNothing) {
     add(soiled, std::numeric_limits<T>::quiet_NaN());
     add(soiled, -std::numeric_limits<T>::infinity());
     EXPECT_EQ(soiled.not_finite, 2u);
+    auto twice = soiled;
+    add(twice, soiled);
+    EXPECT_EQ(twice.not_finite, 4u);
+    EXPECT_EQ(twice.counted, 6u);
+    twice.outside = 5;
+    add(twice, twice);
+    EXPECT_EQ(twice.outside, 10u);
     soiled.not_finite = 0;
     EXPECT_TRUE(laws::same(clean, soiled));
 }

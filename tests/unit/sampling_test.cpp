@@ -84,6 +84,7 @@ TEST(Contains, NothingWhenTheMapServesNothing) {
 TEST(ByMap, FallsBackInTheOrderGiven) {
     ShadowMap<double> const maps[] = {map_of_half_width(1), map_of_half_width(4)};
     EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(0.5, -1, 0)).first, 0);
+    EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(0.5, -1, 0)).blend, 0.0);
     EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(0.99, -1, 0)).first, 1) << "inside the margin of the first";
     EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(5, -1, 0)).first, -1);
 }
