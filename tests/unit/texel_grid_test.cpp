@@ -162,6 +162,16 @@ TEST(HeldSize, IsEnoughAndNoMoreThanAQuarterTooMuch) {
         }
 }
 
+TEST(HeldSize, IsEnoughJustAboveAnEighthOfAnOctave) {
+    for (int k = -80; k <= 80; ++k) {
+        float needed = std::exp2(float(k) / 8);
+        for (int ulp = 0; ulp < 4; ++ulp, needed = std::nextafter(needed, 1e9f)) {
+            EXPECT_GE(held_size(needed, needed / 2), needed);
+            EXPECT_LE(held_size(needed, needed / 2), needed * 1.25f);
+        }
+    }
+}
+
 TEST(HeldSize, ChangesInEighthsOfAnOctaveWhileASlowZoomGoesOn) {
     // In and out by a factor of four, a thousandth a frame: two octaves of eighths each way, and no more.
     double size = 1.0;
