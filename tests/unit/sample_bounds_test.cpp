@@ -87,3 +87,15 @@ TYPED_TEST(SampleBoundsOf, ViewsAndLightsWithFaultsGiveNoRays) {
     view.pose.position.x = std::numeric_limits<T>::quiet_NaN();
     EXPECT_TRUE(sample_rays(view, Light<T>{}, 2, 2).faults.has(Fault::not_finite));
 }
+
+TYPED_TEST(SampleBoundsOf, AsManySplitsAsThereCanBeAddUp) {
+    using T = TypeParam;
+    auto const rays = sample_rays(looking_ahead<T>(), Light<T>{}, 2, 4);
+    auto near_ones = no_bounds(uniform_splits(T(1), T(100), max_splits)), far_ones = near_ones;
+    add(near_ones, rays, 1, 1, T(2));
+    add(far_ones, rays, 1, 1, T(99));
+    add(near_ones, far_ones);
+    EXPECT_FALSE(is_empty(near_ones.box[0]));
+    EXPECT_FALSE(is_empty(near_ones.box[max_splits - 1]));
+    EXPECT_TRUE(is_empty(near_ones.box[5]));
+}

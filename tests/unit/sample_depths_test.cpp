@@ -167,3 +167,10 @@ TYPED_TEST(SampleDepthsOf, AMinusZeroAtANearDistanceOfZeroIsInTheFirstBin) {
     EXPECT_EQ(depths.counted, 1);
     EXPECT_EQ(depths.lo[0], T(0));
 }
+
+TEST(EvenCover, EndsWhereTheLastSplitReachesTheLastDepth) {
+    auto const cover = detail::even_cover(1.0, 8.0, 2.0, 10);
+    EXPECT_EQ(cover.count, 3);
+    EXPECT_TRUE(cover.complete);
+    EXPECT_EQ(detail::even_cover(8.0, 8.0, 2.0, 10).count, 1);
+}
