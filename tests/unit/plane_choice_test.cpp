@@ -218,3 +218,10 @@ TEST(PlaneDistortion, IsTheLargestNumberWhereNothingIsServed) {
     EXPECT_EQ(plane_distortion(ShadowPlane<double>{up, 0.0}, view_over_ground(), slanting, points.data(), 2),
               std::numeric_limits<double>::max());
 }
+
+TEST(PlaneDistortion, CountsPointsOfThePlaneItselfWhateverTheirFootprintsRoundTo) {
+    for (SurfacePoint<double> const& point : points_on(V3(0, 0.5, -20), up)) {
+        ShadowPlane<double> const plane{up, -0.5};
+        EXPECT_NEAR(plane_distortion(plane, view_over_ground(), slanting, &point, 1), 0.0, 1e-9);
+    }
+}

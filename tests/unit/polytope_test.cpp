@@ -161,3 +161,10 @@ TEST(VisibleBody, GrowsByTheSlackOnEverySide) {
         }
     }
 }
+
+TEST(Polytope, OfAsManyFacesAsThereCanBeIsMovedWithAllOfThem) {
+    ConvexBody<double> body = convex_body(unit_box);
+    body.face_count = max_body_faces;
+    body.half_space[max_body_faces - 1] = V4(1, 0, 0, 2);
+    EXPECT_EQ(translated(body, V3(3, 0, 0)).half_space[max_body_faces - 1], V4(1, 0, 0, -1));
+}
