@@ -15,6 +15,7 @@ TEST(Margin, LeavesTheBodyAndOneTexelToEitherSide) {
     EXPECT_TRUE(faults_of_margin(3, 0.5f).has(Fault::map_too_small));
     EXPECT_FALSE(faults_of_margin(4, 0.5f).any());
     EXPECT_EQ(usable_texels(512, 2.0), 508.0);
+    EXPECT_EQ(usable_texels(64, 0.5), 63.0);
     EXPECT_EQ(usable_texels(64, 31.75), 1.0);
     EXPECT_EQ(usable_texels(64, -std::numeric_limits<double>::infinity()), 1.0);
 }

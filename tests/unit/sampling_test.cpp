@@ -103,3 +103,8 @@ TEST(Contains, OfAMapOfOneTexelIsTheWholeMapAndOfAPointBehindItNothing) {
     map.clip_from_world[3][3] = -1.0;
     EXPECT_FALSE(contains(map, 16, 0.0, inside));
 }
+
+TEST(Blended, IsEachMapsShare) {
+    EXPECT_EQ(blended(LookUp<double>{0, 1, 0.25}, 0.5, 1.0), 0.5 * 0.75 + 0.25);
+    EXPECT_EQ(blended(LookUp<double>{0, -1, 0.0}, 0.5, 1.0), 0.5);
+}

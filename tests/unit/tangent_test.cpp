@@ -51,6 +51,7 @@ TEST(Tangents, OfNoNormalAreNone) {
 TEST(BoundedQuotient, IsTheLimitOverZeroAndZeroOverItself) {
     EXPECT_EQ(bounded_quotient(3.0, 2.0, 10.0), 1.5);
     EXPECT_EQ(bounded_quotient(-3.0, 0.0, 10.0), -10.0);
+    EXPECT_EQ(bounded_quotient(0.5, 0.0, 10.0), 10.0);
     EXPECT_EQ(bounded_quotient(3.0, -0.1, 10.0), -10.0);
     EXPECT_EQ(bounded_quotient(0.0, 0.0, 10.0), 0.0);
 }
