@@ -111,10 +111,16 @@ TYPED_TEST(SlicesInSceneProperty, OfAnyNumbersAreFiniteAndCalm) {
         LightBasis<T> const basis = light_basis(safe_normalize(travel).direction);
         Aabb<T> const scene = *nasty_box<T>();
         Mat4<T> maps[max_splits];
+        maps[4] = Mat4<T>(T(7));
         auto const focus =
             watched([&] { return fit_slice_focus(view, basis, splits, scene, odd ? border : T(0), gl_clip, maps); });
         RC_ASSERT(focus.calm());
         for (int i = 0; i < 4; ++i)
             RC_ASSERT(all_finite(maps[i]) && ((focus.result >> i & 1u) != 0 || maps[i] == nowhere<T>()));
+        RC_ASSERT(maps[4] == Mat4<T>(T(7)));
+        Aabb<T> boxes[max_splits];
+        boxes[4] = {Vec3<T>(T(7)), Vec3<T>(T(8))};
+        bound_slices(view, basis, splits, scene, boxes);
+        RC_ASSERT(boxes[4].lo == Vec3<T>(T(7)));
     }));
 }

@@ -244,3 +244,26 @@ TEST(NormalOffset, IsTheTableOfTheKernelsReachAndTheSineOfTheAngle) {
     EXPECT_EQ(normal_offset_metres(0.1, 1, up, up), 0.0);
     EXPECT_EQ(normal_offset_metres(-0.1, 1, up, low), 0.0);
 }
+
+TEST(SpannedByTexel, IsThatOfTheShortestTexelAlongTheAxis) {
+    // NDC x = X.p / W.p changes by |X - x W| a metre: least where x is 0.9, and at x = 1 where that is outside the map.
+    auto const map = [](double along_w) {
+        return from_rows(Vec4<double>(along_w, 0, 1, 0), Vec4<double>(0, 1, 0, 0), Vec4<double>(0, 0, 0, 0.5),
+                         Vec4<double>(1, 0, 0, 3));
+    };
+    EXPECT_NEAR(detail::spanned_by_texel(map(0.9), 0, 100, 1.0), 2.0 / 100, 1e-15);
+    EXPECT_NEAR(detail::spanned_by_texel(map(5.0), 0, 100, 1.0), 2.0 / (100 * std::sqrt(17.0)), 1e-15);
+}
+
+TEST(BiasFor, SlopesOfAWarpLeanAsMuchAsTheWorseOfItsEnds) {
+    // Depth leans by 0.05 a metre at its near end, and by 0.05 - 0.1 at its far one.
+    Overhead overhead;
+    overhead.map.clip_from_world = from_rows(Vec4<double>(0, 0, 0.1, 0), Vec4<double>(0.1, 0, 0, 0),
+                                             Vec4<double>(0.05, -0.02, 0, 0.5), Vec4<double>(0.1, 0, 0, 1));
+    overhead.map.clip = gl_zero_to_one_clip;
+    BiasOptions<double> options = nothing();
+    options.steepest = 0;
+    Mat4<double> const canonical = canonical_from_clip<double>(overhead.map.clip) * overhead.map.clip_from_world;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).slope_limit,
+                detail::steepest_texel(canonical, 100, 0.05) * detail::worst_shear(canonical), 1e-12);
+}

@@ -89,6 +89,14 @@ TYPED_TEST(FitBox, StaysABoxWhateverIsGiven) {
         EXPECT_TRUE(laws::is_a_box(fit_box(LightBasis<T>{Vec3<T>(bad), {}, {}}, body, 100, T(2))));
         EXPECT_TRUE(laws::is_a_box(fit_box(LightBasis<T>{}, body, 100, bad)));
     }
+    LightBox<T> const nothing;
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis) {
+            auto one_bad = body;
+            one_bad[static_cast<std::size_t>(corner)][axis] = nan;
+            LightBox<T> const box = fit_box(LightBasis<T>{}, one_bad, 100, T(2));
+            EXPECT_TRUE(box.lo == nothing.lo && box.hi == nothing.hi) << corner << ' ' << axis;
+        }
     for (int const size : {-1, 0, 1, 2, 70000})
         EXPECT_TRUE(laws::is_a_box(fit_box(LightBasis<T>{}, body, size, T(2)))) << size;
     EXPECT_TRUE(laws::is_a_box(fit_box(LightBasis<T>{}, brick(Vec3<T>(T(-1e18L)), Vec3<T>(T(1e18L))), 100, T(2))));

@@ -162,3 +162,30 @@ TYPED_TEST(FitSphere, OfABadSliceHasNoRadius) {
     EXPECT_EQ(radius([=](auto& s) { s.pose.up *= T(1.1); }), T(0));
     EXPECT_GT(radius([=](auto& s) { s.z_near = T(0); }), T(0));
 }
+
+// From the origin along the axes no coordinate of a corner is rounded but once.
+TEST(BoundingSphere, HoldsItsCornersToTheBitHoweverWideTheView) {
+    for (float side = 0.01f; side < 1e8f; side *= 1.37f)
+        for (float const other : {0.3f, side, -0.3f, -side}) {
+            ViewVolume<float> view;
+            view.left = -side, view.right = side * 0.7f, view.bottom = -std::abs(other), view.top = std::abs(other);
+            if (other < 0) std::swap(view.left, view.bottom), std::swap(view.right, view.top);
+            view.z_near = 0.37f, view.z_far = 5.3f;
+            Sphere<float> const ball = bounding_sphere(view);
+            ASSERT_GT(ball.radius, 0.0f);
+            for (Vec3<float> const& corner : corners(view)) {
+                long double const distance = glm::length(Vec3<long double>(corner) - Vec3<long double>(ball.center));
+                EXPECT_LE(distance, static_cast<long double>(ball.radius)) << side;
+            }
+        }
+}
+
+// All of the view lies to the right of its axis and above: the ball stands on one near corner and one far one.
+TEST(BoundingSphere, OfAViewBesideItsAxisStandsOnTwoCorners) {
+    ViewVolume<double> view;
+    view.left = view.bottom = 0.2, view.right = 0.6, view.top = 0.5;
+    view.z_near = 1, view.z_far = 100;
+    glm::dvec3 const near_corner(0.2, 0.2, 1), far_corner(60, 50, 100);
+    double const radius = glm::length(far_corner - near_corner) / 2;
+    EXPECT_NEAR(bounding_sphere(view).radius, radius, 1e-13 * radius);
+}

@@ -24,6 +24,9 @@ TEST(Hfts, IsExactInContact) {
 TEST(Hfts, IsSoftFromTheSoftGapOn) {
     EXPECT_EQ(hybrid_visibility(Exact{0.0, 2.0}, Soft{0.6, 2.5, true}, 2.0), 0.6);
     EXPECT_EQ(hybrid_visibility(Exact{1.0, 0.0}, Soft{0.6, 2.5, true}, 2.0), 0.6) << "the outer half of a penumbra";
+    EXPECT_EQ(hybrid_visibility(Exact{0.0, 2.0}, Soft{0.6, 0.0, false}, 2.0), 0.6) << "PCSS missed it, and has no gap";
+    for (double const none : {0.0, -0.5})
+        EXPECT_EQ(hybrid_visibility(Exact{0.5, 2.0}, Soft{none, 2.5, true}, 2.0), 0.0);
 }
 
 TEST(Hfts, MixesInProportionToTheGapOfTheNearestOccluder) {

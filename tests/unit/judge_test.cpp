@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace shadowmath;
 
@@ -153,4 +154,50 @@ TEST(NeutralNormal, FacesTheEyeWhereTheLightComesFromBehindThePoint) {
     ViewVolume<double> const view = narrow_view(1.0, 100.0);
     V3 const point = point_at(view, 0.0, 0.0, 10.0);
     EXPECT_EQ(neutral_normal(view, directional(V3(0, 0, 1)), point), V3(0, 0, 1));
+}
+
+TEST(DepthsInBox, AreWhereAShortAndSlantingRayEntersAndLeaves) {
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0), V3(0, 0, -1), V3(0, 1, 0)), 1.0, 1.0, 0.1, 0.9);
+    Aabb<double> const box{V3(-1, -1, -0.7), V3(1, 1, -0.5)};
+    DepthSpan<double> const span = depths_in_box(view, 0.1, -0.2, box);
+    EXPECT_NEAR(span.first, 0.5, 1e-15);
+    EXPECT_NEAR(span.last, 0.7, 1e-15);
+    // At 0.35 m a side of 0.2 is 0.07 m across, and at 0.5 m 0.1 m.
+    EXPECT_NEAR(depths_in_box(view, 0.2, 0.0, Aabb<double>{V3(0.07, -1, -2), V3(0.1, 1, 2)}).first, 0.35, 1e-15);
+    EXPECT_NEAR(depths_in_box(view, 0.2, 0.0, Aabb<double>{V3(0.07, -1, -2), V3(0.1, 1, 2)}).last, 0.5, 1e-15);
+}
+
+TEST(SamplesIn, StandInTheMiddleOfTheirCells) {
+    ViewVolume<double> const view = narrow_view(1.0, 100.0);
+    Samples<double> const samples = samples_in(view, overhead, everything);
+    ASSERT_EQ(samples.count, max_samples);
+    V2 middle(0);
+    for (int i = 0; i < samples.count; ++i) {
+        V3 const way = samples.at[static_cast<std::size_t>(i)].point - view.pose.position;
+        middle += V2(glm::dot(view.pose.right, way), glm::dot(view.pose.up, way)) / glm::dot(view.pose.forward, way);
+    }
+    EXPECT_NEAR(middle.x, 0.0, 1e-12);
+    EXPECT_NEAR(middle.y, 0.0, 1e-12);
+}
+
+TEST(SamplesIn, AreNoneWhereAnythingIsWrong) {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    ViewVolume<double> const view = narrow_view(1.0, 100.0);
+    ViewVolume<double> bad = view, endless = view;
+    bad.left = bad.right;
+    endless.z_far = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(samples_in(bad, overhead, everything).count, 0);
+    EXPECT_EQ(samples_in(endless, overhead, everything).count, 0);
+    EXPECT_EQ(samples_in(view, directional(V3(0)), everything).count, 0);
+    EXPECT_EQ(samples_in(view, overhead, Aabb<double>{V3(nan), V3(1)}).count, 0);
+    EXPECT_EQ(samples_in(view, overhead, Aabb<double>{}).count, 0);
+}
+
+TEST(Judge, LeavesOutWhatHasNoFootprint) {
+    ViewVolume<double> const view = narrow_view(1.0, 100.0);
+    CascadeOptions<double> const options = plain(1);
+    auto const cascades = fit_cascades(view, overhead, everything, everything, options);
+    SurfacePoint<double> const without_a_side{point_at(view, 0.0, 0.0, 10.0), V3(0)};
+    EXPECT_EQ(judge(cascades, options.map_size, view, pixels, &without_a_side, 1).all.count, 0);
 }

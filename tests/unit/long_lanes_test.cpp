@@ -40,6 +40,7 @@ void expect_lane_by_lane() {
         EXPECT_EQ(lane<T>(least(x, y), i), a < b ? a : b);
         EXPECT_EQ(lane<T>(largest(x, y), i), a > b ? a : b);
         EXPECT_EQ(lane<T>(where_at_most(x, y, y, x), i), a <= b ? b : a);
+        EXPECT_EQ(lane<T>(where_at_most(x, x, y, x), i), b) << "alike is at most";
         EXPECT_EQ(lane<T>(Long<T>::all(T(7)), i), T(7));
     }
 }

@@ -12,7 +12,12 @@ TEST(Margin, LeavesTheBodyAndOneTexelToEitherSide) {
     EXPECT_TRUE(faults_of_margin(2, 0.0f).has(Fault::map_too_small));
     EXPECT_FALSE(faults_of_margin(7, 2.0f).any());
     EXPECT_TRUE(faults_of_margin(6, 2.0f).has(Fault::map_too_small));
+    EXPECT_TRUE(faults_of_margin(3, 0.5f).has(Fault::map_too_small));
+    EXPECT_FALSE(faults_of_margin(4, 0.5f).any());
     EXPECT_EQ(usable_texels(512, 2.0), 508.0);
+    EXPECT_EQ(usable_texels(64, 0.5), 63.0);
+    EXPECT_EQ(usable_texels(64, 31.75), 1.0);
+    EXPECT_EQ(usable_texels(64, -std::numeric_limits<double>::infinity()), 1.0);
 }
 
 TEST(Margin, ANegativeOneCountsAsNone) {

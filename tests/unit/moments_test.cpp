@@ -64,7 +64,13 @@ TEST(Moments, MeanIsThatOfTheBoxAndOutsideIsWhatIsAskedFor) {
     EXPECT_DOUBLE_EQ(at(7.5, 8.0), 0.4375);
     EXPECT_DOUBLE_EQ(at(4.0, 8.0), 0.25);
     EXPECT_DOUBLE_EQ(at(4.0, 0.0), 0.25 * 0.5 + 2.0 * 0.5);
+    EXPECT_DOUBLE_EQ(at(-0.5, 8.0), 0.25 * 0.25 + 2.0 * 0.75);
+    EXPECT_DOUBLE_EQ(at(16.5, 8.0), 1.0 * 0.25 + 2.0 * 0.75);
     EXPECT_EQ(at(1e30, 0.0), 2.0);
+    for (double const out : {-1e30, 1e30}) {
+        EXPECT_EQ(at(out, 8.0), 2.0);
+        EXPECT_EQ(at(8.0, out), 2.0);
+    }
     EXPECT_EQ(at(not_a_number, 0.0), 2.0);
 }
 

@@ -92,3 +92,8 @@ TEST(Msm, ABiasOutsideItsRangeIsTheNearestOne) {
     EXPECT_EQ(msm_visibility(moments, 0.6, std::numeric_limits<double>::quiet_NaN()), least);
     EXPECT_EQ(msm_visibility(moments, 0.6, 7.0), msm_visibility(moments, 0.6, 0.1));
 }
+
+TEST(Msm, DividesByNothingToNothing) {
+    EXPECT_EQ(detail::quotient_or_zero(3.0, 0.0), 0.0);
+    EXPECT_EQ(detail::quotient_or_zero(3.0, 2.0), 1.5);
+}

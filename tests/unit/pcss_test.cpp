@@ -121,6 +121,18 @@ TEST(Pcss, OutsideTheMapIsLitAndNeverAskedFor) {
     for (double x : {-40.0, 40.0, 1e30, not_a_number}) EXPECT_EQ(at(x).visibility, 1.0);
     EXPECT_NEAR(at(4.0).visibility, 0.5, 0.05);
     EXPECT_EQ(at(0.0).visibility, 0.0);
+    auto const all_lit = [](int, int) { return 1.0; };
+    EXPECT_FALSE(soft_visibility(scene.map, size, Vec3<double>(4.0, 0, 0), Vec3<double>(0, 1, 0), MapBias<double>{},
+                                 scene.penumbra, PcssOptions<double>{}, all_lit)
+                     .blocked);
+}
+
+TEST(Pcss, TurnsItsTapsAsToldAndNotAtAllWhereThatIsNoDirection) {
+    Overhead const scene;
+    double const not_turned = scene.past_edge(0.1, 5.0, {8, 8, {1, 0}}).visibility;
+    EXPECT_NE(scene.past_edge(0.1, 5.0, {8, 8, {0.6, 0.8}}).visibility, not_turned);
+    for (double const odd : {0.0, 7.0, not_a_number})
+        EXPECT_EQ(scene.past_edge(0.1, 5.0, {8, 8, {odd, 0}}).visibility, not_turned) << odd;
 }
 
 TEST(Pcss, BadNumbersAreLit) {
@@ -132,6 +144,7 @@ TEST(Pcss, BadNumbersAreLit) {
     };
     EXPECT_EQ(seen(good, 1.0, scene.penumbra, size), 0.0);
     EXPECT_EQ(seen(good, 1.0, scene.penumbra, 0), 1.0);
+    EXPECT_EQ(seen(good, 1.0, scene.penumbra, largest_map_size + 1), 1.0);
     EXPECT_EQ(seen(good, 0.0, scene.penumbra, size), 1.0);
     EXPECT_EQ(seen(good, not_a_number, scene.penumbra, size), 1.0);
     EXPECT_EQ(seen({good.texel, not_a_number, {}}, 1.0, scene.penumbra, size), 1.0);

@@ -84,6 +84,9 @@ TEST(Penumbra, OfAMapHasNoKernelWithoutAMapAPlaceOrAGap) {
     EXPECT_EQ(kernel_texels(penumbra, place, 0, 0.1), Vec2<double>(0.0));
     EXPECT_EQ(kernel_texels(penumbra, behind, 100, 0.1), Vec2<double>(0.0));
     EXPECT_EQ(kernel_texels(penumbra, Vec4<double>(nan), 100, 0.1), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, place, -4, 0.1), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, Vec4<double>(0.5, 0.5, 0.5, -1.0), 100, 0.1), Vec2<double>(0.0));
+    EXPECT_EQ(kernel_texels(penumbra, Vec4<double>(0.5, 0.5, nan, 1.0), 100, 0.1), Vec2<double>(0.0));
     EXPECT_EQ(kernel_texels(penumbra, place, 100, nan), Vec2<double>(0.0));
     EXPECT_EQ(kernel_texels(penumbra, place, 100, std::numeric_limits<double>::max()), Vec2<double>(0.0)) << "no end";
 }

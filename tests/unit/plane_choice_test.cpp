@@ -192,3 +192,36 @@ TEST(StillGood, TurnsFalseAsTheCameraComesDown) {
     EXPECT_GT(good, 0);
     EXPECT_LT(good, 20);
 }
+
+TEST(MedianPlane, LooksAtEveryPointOfAsManyAsItHolds) {
+    Points points;
+    for (int i = 0; i < max_samples; ++i) points.push_back({V3(0, i % 2 == 0 ? 0 : 5, -10), up});
+    EXPECT_EQ(median_plane(up, points.data(), count_of(points)).offset, -5.0);
+}
+
+TEST(PlaneDistortion, IsAMeanOverThePoints) {
+    Points once = points_on(V3(0, 0.5, -20), up), twice = once;
+    twice.insert(twice.end(), once.begin(), once.end());
+    ShadowPlane<double> const plane{up, -0.2};
+    auto const of = [&](Points const& points) {
+        return plane_distortion(plane, view_over_ground(), slanting, points.data(), count_of(points));
+    };
+    EXPECT_GT(of(once), 0.0);
+    EXPECT_NEAR(of(twice), of(once), 1e-12 * of(once));
+}
+
+TEST(PlaneDistortion, IsTheLargestNumberWhereNothingIsServed) {
+    // Walls that the light runs along: their footprint is the limit in any map.
+    V3 const along_light = glm::normalize(V3(1, 0.4, 0));
+    Points points{{V3(0, 1, -10), along_light}, {V3(1, 2, -20), along_light}};
+    EXPECT_NEAR(glm::dot(along_light, slanting.direction), 0.0, 1e-15);
+    EXPECT_EQ(plane_distortion(ShadowPlane<double>{up, 0.0}, view_over_ground(), slanting, points.data(), 2),
+              std::numeric_limits<double>::max());
+}
+
+TEST(PlaneDistortion, CountsPointsOfThePlaneItselfWhateverTheirFootprintsRoundTo) {
+    for (SurfacePoint<double> const& point : points_on(V3(0, 0.5, -20), up)) {
+        ShadowPlane<double> const plane{up, -0.5};
+        EXPECT_NEAR(plane_distortion(plane, view_over_ground(), slanting, &point, 1), 0.0, 1e-9);
+    }
+}

@@ -183,3 +183,12 @@ TEST(ByFootprint, MixesHalfAndHalfWhereTwoMapsAreAlikeAndNotBeyondTheBand) {
     EXPECT_EQ(at(5, 6, 0.25).first, -1) << "neither holds the point";
     EXPECT_EQ(by_footprint<double>(nullptr, 0, 1024, 2.0, eye, V2(1600, 1000), V3(0, 0, -10), up).first, -1);
 }
+
+TEST(PlaneSet, LooksAtAsManyPointsAsItHolds) {
+    Points points;
+    while (count_of(points) < max_samples) points.push_back(floor_and_wall(0)[points.size()]);
+    auto const planes = choose_planes(view, slanting, points.data(), max_samples);
+    EXPECT_EQ(planes.count, 1);
+    EXPECT_TRUE(is_floor(planes.at[0]));
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), 0).count, 0);
+}

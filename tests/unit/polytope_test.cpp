@@ -137,3 +137,34 @@ TEST(Polytope, CutTwiceAlongOnePlaneHoldsWhatItHeldCutOnce) {
                     EXPECT_NEAR(end(many), end(once), 7 * 20 * 35 * std::numeric_limits<float>::epsilon());
                 }
 }
+
+TEST(Polytope, OfABoxAnywhereHasItsMiddleInsideAllPlanes) {
+    for (V3 const& middle : {V3(0.0), V3(20, -3, 7), V3(-20, 300, -7)}) {
+        V3 const half(1, 2, 3);
+        ConvexBody<double> const body = convex_body(Aabb<double>{middle - half, middle + half});
+        for (int i = 0; i < body.face_count; ++i)
+            EXPECT_GE(glm::dot(body.half_space[static_cast<unsigned>(i)], V4(middle, 1)), 1.0) << i;
+    }
+}
+
+TEST(VisibleBody, GrowsByTheSlackOnEverySide) {
+    ViewVolume<double> const view = orthographic_view(Pose<double>{}, -2.0, 3.0, -4.0, 5.0, 1.0, 10.0);
+    Aabb<double> const everything{V3(-1e6), V3(1e6)};
+    for (double const slack : {0.0, 0.5}) {
+        Aabb<double> bounds;
+        for_each_vertex(visible_body(view, everything, slack), [&](V3 const& v) { bounds = merge(bounds, v); });
+        V3 const right = view.pose.right, up = view.pose.up, forward = view.pose.forward;
+        V3 const lo = right * -2.0 + up * -4.0 + forward * 10.0, hi = right * 3.0 + up * 5.0 + forward * 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(bounds.lo[axis], std::min(lo[axis], hi[axis]) - slack, 1e-12) << axis;
+            EXPECT_NEAR(bounds.hi[axis], std::max(lo[axis], hi[axis]) + slack, 1e-12) << axis;
+        }
+    }
+}
+
+TEST(Polytope, OfAsManyFacesAsThereCanBeIsMovedWithAllOfThem) {
+    ConvexBody<double> body = convex_body(unit_box);
+    body.face_count = max_body_faces;
+    body.half_space[max_body_faces - 1] = V4(1, 0, 0, 2);
+    EXPECT_EQ(translated(body, V3(3, 0, 0)).half_space[max_body_faces - 1], V4(1, 0, 0, -1));
+}

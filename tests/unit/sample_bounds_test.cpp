@@ -95,9 +95,22 @@ TYPED_TEST(SampleBoundsOf, ViewsAndLightsWithFaultsGiveNoRays) {
     EXPECT_TRUE(sample_rays(view, directional(Vec3<T>(0)), 2, 2).faults.has(Fault::zero_light));
     EXPECT_TRUE(sample_rays(view, spot(Vec3<T>(0), Vec3<T>(1), T(1), T(9)), 2, 2).faults.has(Fault::clamped_option));
     EXPECT_FALSE(sample_rays(view, Light<T>{}, 0, 2).usable);
+    EXPECT_TRUE(sample_rays(view, Light<T>{}, 1, 1).usable) << "a picture of one pixel";
     EXPECT_FALSE(sample_rays(view, Light<T>{}, 2, 0).usable);
     view.pose.position.x = T(1e20);
     EXPECT_TRUE(sample_rays(view, Light<T>{}, 2, 2).faults.has(Fault::precision_lost));
     view.pose.position.x = std::numeric_limits<T>::quiet_NaN();
     EXPECT_TRUE(sample_rays(view, Light<T>{}, 2, 2).faults.has(Fault::not_finite));
+}
+
+TYPED_TEST(SampleBoundsOf, AsManySplitsAsThereCanBeAddUp) {
+    using T = TypeParam;
+    auto const rays = sample_rays(looking_ahead<T>(), Light<T>{}, 2, 4);
+    auto near_ones = no_bounds(uniform_splits(T(1), T(100), max_splits)), far_ones = near_ones;
+    add(near_ones, rays, 1, 1, T(2));
+    add(far_ones, rays, 1, 1, T(99));
+    add(near_ones, far_ones);
+    EXPECT_FALSE(is_empty(near_ones.box[0]));
+    EXPECT_FALSE(is_empty(near_ones.box[max_splits - 1]));
+    EXPECT_TRUE(is_empty(near_ones.box[5]));
 }

@@ -104,6 +104,13 @@ TYPED_TEST(SampleDepthsOf, NaNSamplesAreCountedAndChangeNothing) {
     add(soiled, std::numeric_limits<T>::quiet_NaN());
     add(soiled, -std::numeric_limits<T>::infinity());
     EXPECT_EQ(soiled.not_finite, 2u);
+    auto twice = soiled;
+    add(twice, soiled);
+    EXPECT_EQ(twice.not_finite, 4u);
+    EXPECT_EQ(twice.counted, 6u);
+    twice.outside = 5;
+    add(twice, twice);
+    EXPECT_EQ(twice.outside, 10u);
     soiled.not_finite = 0;
     EXPECT_TRUE(laws::same(clean, soiled));
 }
@@ -159,4 +166,11 @@ TYPED_TEST(SampleDepthsOf, AMinusZeroAtANearDistanceOfZeroIsInTheFirstBin) {
     add(depths, -T(0));
     EXPECT_EQ(depths.counted, 1);
     EXPECT_EQ(depths.lo[0], T(0));
+}
+
+TEST(EvenCover, EndsWhereTheLastSplitReachesTheLastDepth) {
+    auto const cover = detail::even_cover(1.0, 8.0, 2.0, 10);
+    EXPECT_EQ(cover.count, 3);
+    EXPECT_TRUE(cover.complete);
+    EXPECT_EQ(detail::even_cover(8.0, 8.0, 2.0, 10).count, 1);
 }

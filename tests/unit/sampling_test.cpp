@@ -84,6 +84,7 @@ TEST(Contains, NothingWhenTheMapServesNothing) {
 TEST(ByMap, FallsBackInTheOrderGiven) {
     ShadowMap<double> const maps[] = {map_of_half_width(1), map_of_half_width(4)};
     EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(0.5, -1, 0)).first, 0);
+    EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(0.5, -1, 0)).blend, 0.0);
     EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(0.99, -1, 0)).first, 1) << "inside the margin of the first";
     EXPECT_EQ(by_map(maps, 2, 100, 2.0, Vec3<double>(5, -1, 0)).first, -1);
 }
@@ -101,4 +102,9 @@ TEST(Contains, OfAMapOfOneTexelIsTheWholeMapAndOfAPointBehindItNothing) {
     EXPECT_TRUE(contains(map, 1, 0.0, inside));
     map.clip_from_world[3][3] = -1.0;
     EXPECT_FALSE(contains(map, 16, 0.0, inside));
+}
+
+TEST(Blended, IsEachMapsShare) {
+    EXPECT_EQ(blended(LookUp<double>{0, 1, 0.25}, 0.5, 1.0), 0.5 * 0.75 + 0.25);
+    EXPECT_EQ(blended(LookUp<double>{0, -1, 0.0}, 0.5, 1.0), 0.5);
 }

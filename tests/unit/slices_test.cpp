@@ -19,6 +19,7 @@ ViewVolume<float> some_view() {
 void expect_nowhere(ViewVolume<float> const& view, LightBasis<float> const& basis, Splits<float> const& splits,
                     float border) {
     Mat4<float> boxes[max_splits], spheres[max_splits];
+    boxes[splits.count] = spheres[splits.count] = Mat4<float>(7.0f);
     auto const boxed = test::watched([&] { return fit_slice_boxes(view, basis, splits, border, gl_clip, boxes); });
     auto const rounded =
         test::watched([&] { return fit_slice_spheres(view, basis, splits, 512, border * 512, gl_clip, spheres); });
@@ -28,6 +29,8 @@ void expect_nowhere(ViewVolume<float> const& view, LightBasis<float> const& basi
         EXPECT_EQ(boxes[i], nowhere<float>());
         EXPECT_EQ(spheres[i], nowhere<float>());
     }
+    EXPECT_EQ(boxes[splits.count], Mat4<float>(7.0f)) << "no more than was asked for";
+    EXPECT_EQ(spheres[splits.count], Mat4<float>(7.0f));
 }
 
 }  // namespace
@@ -50,6 +53,20 @@ TEST(Slices, OfAGoodViewHoldTheirCornersInEveryConvention) {
 }
 
 // From 5e8 m away the rounding of an axis 1e12 long would leave a map no extent.
+TEST(Slices, OfAViewThatIsCentredOnOneAxisAloneHoldTheirCorners) {
+    LightBasis<float> const basis = light_basis(directional(Vec3<float>(0.4f, -1, 0.3f)).direction);
+    Splits<float> const splits = practical_splits(0.1f, 60.0f, 4);
+    for (int axis = 0; axis < 2; ++axis) {
+        ViewVolume<float> view = some_view();
+        (axis == 0 ? view.left : view.bottom) *= 0.2f;
+        Mat4<float> spheres[max_splits];
+        ASSERT_TRUE(fit_slice_spheres(view, basis, splits, 512, 2.0f, gl_clip, spheres));
+        for (int i = 0; i < 4; ++i)
+            EXPECT_TRUE(
+                laws::is_on_the_grid(spheres[i], basis, slice(view, slice_range(splits, i)), 512, 2.0f, gl_clip));
+    }
+}
+
 TEST(Slices, OfALightWithoutUnitAxesAreNowhere) {
     ViewVolume<float> view = some_view();
     Splits<float> const splits = uniform_splits(0.1f, 60.0f, 2);
@@ -61,7 +78,8 @@ TEST(Slices, OfALightWithoutUnitAxesAreNowhere) {
             expect_nowhere(view, basis, splits, 0.0f);
         }
     Mat4<float> maps[max_splits];
-    EXPECT_TRUE(fit_slice_boxes(some_view(), LightBasis<float>{}, splits, 0.0f, gl_clip, maps));
+    for (float const border : {0.0f, 0.49f})
+        EXPECT_TRUE(fit_slice_boxes(some_view(), LightBasis<float>{}, splits, border, gl_clip, maps));
 }
 
 TEST(Slices, OfNoViewNoSplitsOrNoRoomAreNowhere) {

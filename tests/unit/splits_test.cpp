@@ -68,12 +68,15 @@ TEST(Splits, ARangeOfThreeNumbersHoldsTwoSplits) {
 }
 
 TEST(Splits, AreOrderedInTheNarrowestRanges) {
-    float const a = 1.0f;
-    float b = a;
-    for (int numbers = 1; numbers <= 9; ++numbers) {
-        b = std::nextafter(b, 2.0f);
-        for (float const lambda : {0.0f, 0.3f, 0.5f, 1.0f})
-            EXPECT_TRUE(laws::is_ordered(practical_splits(a, b, 4, lambda), a, b, 4)) << numbers << ' ' << lambda;
+    float a = 2.0f;
+    for (int below = 0; below < 8; ++below) a = std::nextafter(a, 0.0f);
+    for (int begin = 0; begin < 16; ++begin, a = std::nextafter(a, 4.0f)) {
+        float b = a;
+        for (int numbers = 1; numbers <= 16; ++numbers) {
+            b = std::nextafter(b, 4.0f);
+            for (float const lambda : {0.0f, 0.3f, 0.5f, 1.0f})
+                EXPECT_TRUE(laws::is_ordered(practical_splits(a, b, 4, lambda), a, b, 4)) << a << ' ' << numbers;
+        }
     }
 }
 

@@ -89,6 +89,15 @@ TEST(Sweep, OfNothingHoldsNothing) {
     EXPECT_EQ(clipped(convex_body(unit_box), swept).edge_count, 0);
 }
 
+TEST(Sweep, PlanesThatMissABodyCostNoFace) {
+    HalfSpaces<double> planes;
+    planes.visible = true;
+    planes.at[static_cast<unsigned>(planes.count++)] = Vec4<double>(1, 0, 0, 0.5);
+    EXPECT_EQ(clipped(convex_body(unit_box), planes).face_count, 6);
+    planes.at[static_cast<unsigned>(planes.count++)] = Vec4<double>(1, 0, 0, -0.5);
+    EXPECT_EQ(clipped(convex_body(unit_box), planes).face_count, 7);
+}
+
 TEST(Sweep, OfABodyThatHasRunOutOfFacesIsTooLargeAndNeverTooSmall) {
     ConvexBody<double> body = convex_body(Aabb<double>{Vec3<double>(-1.0), Vec3<double>(1.0)});
     HalfSpaces<double> planes;

@@ -30,6 +30,19 @@ TEST(GainAlong, OfAPerspectiveIsItsDerivative) {
     EXPECT_EQ(gain_along(eye, at, Vec3<double>(0, 0, 1)).x, 0.25);
 }
 
+TEST(Tangents, AreTwoOfAnyNormal) {
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z) {
+                Vec3<double> const normal(x, y, z);
+                Tangents<double> const plane = tangents(normal);
+                ASSERT_EQ(plane.ok, normal != Vec3<double>(0));
+                if (!plane.ok) continue;
+                EXPECT_NEAR(glm::dot(plane.s, normal), 0, 1e-15);
+                EXPECT_NEAR(glm::length(glm::cross(plane.s, plane.t)), 1, 1e-14);
+            }
+}
+
 TEST(Tangents, OfNoNormalAreNone) {
     EXPECT_FALSE(tangents(Vec3<float>(0.0f)).ok);
     EXPECT_FALSE(tangents(Vec3<float>(std::numeric_limits<float>::quiet_NaN(), 0.0f, 1.0f)).ok);
@@ -38,6 +51,7 @@ TEST(Tangents, OfNoNormalAreNone) {
 TEST(BoundedQuotient, IsTheLimitOverZeroAndZeroOverItself) {
     EXPECT_EQ(bounded_quotient(3.0, 2.0, 10.0), 1.5);
     EXPECT_EQ(bounded_quotient(-3.0, 0.0, 10.0), -10.0);
+    EXPECT_EQ(bounded_quotient(0.5, 0.0, 10.0), 10.0);
     EXPECT_EQ(bounded_quotient(3.0, -0.1, 10.0), -10.0);
     EXPECT_EQ(bounded_quotient(0.0, 0.0, 10.0), 0.0);
 }

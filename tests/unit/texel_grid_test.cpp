@@ -162,6 +162,16 @@ TEST(HeldSize, IsEnoughAndNoMoreThanAQuarterTooMuch) {
         }
 }
 
+TEST(HeldSize, IsEnoughJustAboveAnEighthOfAnOctave) {
+    for (int k = -80; k <= 80; ++k) {
+        float needed = std::exp2(float(k) / 8);
+        for (int ulp = 0; ulp < 4; ++ulp, needed = std::nextafter(needed, 1e9f)) {
+            EXPECT_GE(held_size(needed, needed / 2), needed);
+            EXPECT_LE(held_size(needed, needed / 2), needed * 1.25f);
+        }
+    }
+}
+
 TEST(HeldSize, ChangesInEighthsOfAnOctaveWhileASlowZoomGoesOn) {
     // In and out by a factor of four, a thousandth a frame: two octaves of eighths each way, and no more.
     double size = 1.0;
@@ -204,4 +214,35 @@ TEST(GridWindow, StandsOnWholePages) {
     EXPECT_FALSE(grid_window(axes, glm::dvec3(0), 0.0, 512).visible);
     EXPECT_FALSE(grid_window(axes, glm::dvec3(0), 1.0, 512, 0).visible);
     EXPECT_FALSE(grid_window(axes, glm::dvec3(1e300), 1.0, 512).visible);
+}
+
+TEST(GridWindow, NamesEachThingThatIsWrong) {
+    using V3 = glm::dvec3;
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    LightBasis<double> const axes = light_basis(V3(0, -1, 0));
+    auto const faults = [&](V3 const& center, double texel, int size, int step) {
+        auto const grid = grid_window(axes, center, texel, size, step);
+        EXPECT_EQ(grid.visible, !grid.faults.any());
+        return grid.faults;
+    };
+    EXPECT_EQ(faults(V3(1), 0.25, 1, 1), Faults()) << "a window of one texel";
+    EXPECT_EQ(faults(V3(nan), 0.25, 64, 1), Faults(Fault::not_finite));
+    EXPECT_EQ(faults(V3(1), nan, 64, 1), Faults(Fault::not_finite));
+    EXPECT_EQ(faults(V3(1), 0.25, 0, 1), Faults(Fault::map_too_small));
+    EXPECT_EQ(faults(V3(1), 0.25, 64, 0), Faults(Fault::map_too_small));
+}
+
+TEST(HeldSize, IsTheNextEighthOfAnOctaveBelowOneAndAtAnEighthToo) {
+    EXPECT_DOUBLE_EQ(held_size(0.3, 0.05), std::exp2(std::ceil(std::log2(0.3) * 8) / 8));
+    EXPECT_EQ(held_size(2.0, 1.0), 2.0);
+}
+
+TEST(TexelGrid, IsNowhereBetweenDepthsThatAreNoneOrTooFarOut) {
+    auto const grid = grid_window(light_basis(glm::dvec3(0, -1, 0)), glm::dvec3(1), 0.25, 64);
+    double const nan = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
+    EXPECT_NE(clip_from_world(grid, -1.0, 9.0, gl_clip), nowhere<double>());
+    for (double const bad : {nan, endless, 1e30}) {
+        EXPECT_EQ(clip_from_world(grid, -1.0, bad, gl_clip), nowhere<double>()) << bad;
+        EXPECT_EQ(clip_from_world(grid, -bad, 9.0, gl_clip), nowhere<double>()) << bad;
+    }
 }

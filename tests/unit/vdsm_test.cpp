@@ -340,3 +340,16 @@ TEST(Vdsm, ServesOrthographicEyes) {
     EXPECT_TRUE(laws::is_map_of(map.clip_from_world, morning, gl_clip));
     EXPECT_TRUE(laws::serves(map, V3(0, 0, -10), 0.0));
 }
+
+TEST(ReceiverValid, IsWhereWIsAboveItsLeast) {
+    ShadowMap<double> map;
+    map.clip_from_world = Mat4<double>(1.0);
+    map.visible = true;
+    map.w_min = 0.5;
+    EXPECT_TRUE(receiver_valid(map, Vec3<double>(3, 4, 5)));
+    map.w_min = 1.0;
+    EXPECT_FALSE(receiver_valid(map, Vec3<double>(3, 4, 5)));
+    map.w_min = 0.5;
+    map.visible = false;
+    EXPECT_FALSE(receiver_valid(map, Vec3<double>(3, 4, 5)));
+}

@@ -183,3 +183,13 @@ TEST(Pose, WithoutAForwardOrARightAxisComesBackAsItIs) {
         EXPECT_EQ(orthonormalized(pose).*axis, glm::dvec3(0.0));
     }
 }
+
+TEST(ViewFromProjection, OfAMatrixWithoutAScaleHasEqualSides) {
+    for (int axis = 0; axis < 2; ++axis) {
+        Mat4<double> matrix(1.0);
+        matrix[axis][axis] = 0;
+        ViewVolume<double> const view = view_from_projection(Pose<double>{}, matrix, 0.1, 10.0);
+        for (double const side : {view.left, view.right, view.bottom, view.top}) EXPECT_EQ(side, 0.0);
+        EXPECT_TRUE(faults_of(view).has(Fault::bad_frustum));
+    }
+}

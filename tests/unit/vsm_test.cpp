@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 using namespace shadowmath;
@@ -50,6 +51,23 @@ TEST(Evsm, OfAReceiverThatIsNoNumberIsLit) {
     EvsmExponents<double> const exponents;
     Vec4<double> const moments = evsm_moments(0.2, exponents);
     double const nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(evsm_visibility(moments, nan, exponents, 1e-4), 1.0);
+    EXPECT_EQ(evsm_warp(nan, exponents), evsm_warp(1.0, exponents)) << "as far away as can be stored";
     EXPECT_EQ(evsm_bound(moments, Vec2<double>(nan, -1.0), exponents, 1e-4), 1.0);
     EXPECT_EQ(evsm_bound(Vec4<double>(nan), evsm_warp(0.5, exponents), exponents, 1e-4), 1.0);
+}
+
+TEST(Vsm, OfOneDepthIsDarkAsSoonAsTheLeastDeviationIsBehind) {
+    // One deviation behind the occluder half of the light is let through.
+    EXPECT_NEAR(vsm_visibility(vsm_moments(0.5), 0.51, 0.01), 0.5, 1e-12);
+    EXPECT_NEAR(vsm_visibility(vsm_moments(0.5), 0.51, 7.0), 0.5, 1e-12) << "a hundredth at most";
+    EXPECT_EQ(vsm_visibility(vsm_moments(0.5), 0.51, -1.0), 0.0);
+}
+
+TEST(Evsm, TakesTheLeastDeviationForOneOfDepth) {
+    EvsmExponents<double> const exponents{4.0, 0.0};
+    double const depth = 0.51, warp = std::exp(4 * (2 * depth - 1)), before = warp - 1;
+    double const spread = 0.01 * 2 * 4 * warp;  // d/dz of exp(4 (2 z - 1))
+    EXPECT_NEAR(evsm_visibility(evsm_moments(0.5, exponents), depth, exponents, 0.01),
+                spread * spread / (spread * spread + before * before), 1e-12);
 }

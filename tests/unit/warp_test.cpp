@@ -519,3 +519,10 @@ TEST(SimplePerspectiveMap, ClampsItsStrengthAndRefusesBadMaps) {
     EXPECT_TRUE(
         simple_perspective_map(level_view(), overhead, town, town, options, gl_clip).faults.has(Fault::map_too_small));
 }
+
+TEST(LloydsEta, EndsThreeTenthsOfTheWayFromTheEdgeToARightAngle) {
+    double const half = 0.5, right_angle = std::acos(0.0), last = half + 0.3 * (right_angle - half);
+    EXPECT_NEAR(lloyd_eta(half + 0.1, half), -0.2 * (1 - std::sin(right_angle * 0.1 / (last - half))), 1e-14);
+    EXPECT_LT(lloyd_eta(last * 0.99, half), 0.0);
+    EXPECT_EQ(lloyd_eta(last * 1.01, half), 0.0);
+}
