@@ -104,12 +104,12 @@ template <class T>
         for (int f = 0; f < fit_count; ++f) {
             options.fit = fits[f];
             if (options.steady_maps >= count && f > 0) break;
-            // One map has no splits to place.
-            T lo = T(0), hi = count > 1 ? T(1) : T(0);
+            T lo = T(0), hi = T(1);
             T here_least = footprint_limit<T>;
             CascadeOptions<T> here = options;
             Judgement<T> judgement;
             for (int round = 0; round < 3; ++round) {
+                // One map has no splits to place.
                 int const steps = count > 1 ? (round == 0 ? 10 : 8) : 0;
                 T const step = steps > 0 ? (hi - lo) / T(steps) : T(0);
                 for (int i = 0; i <= steps; ++i) {

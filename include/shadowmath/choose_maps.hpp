@@ -312,8 +312,9 @@ template <class T>
             LightSample<T> const& sample = work.sample[work.list[static_cast<unsigned>(i)]];
             add(supports, sample.place);
             Vec2<T> const tile = (Vec2<T>(sample.seen) - first) / size;
-            int const x = glm::clamp(static_cast<int>(tile.x), 0, tiles.width - 1);
-            int const y = glm::clamp(static_cast<int>(tile.y), 0, tiles.height - 1);
+            // One from outside the picture is as good as on its border.
+            int const x = static_cast<int>(std::fmin(std::fmax(tile.x, T(0)), T(tiles.width - 1)));
+            int const y = static_cast<int>(std::fmin(std::fmax(tile.y, T(0)), T(tiles.height - 1)));
             visit_tile(x, y, part, [&](Vec3<T> const* points, int point_count) {
                 for (int k = 0; k < point_count; ++k) add(supports, Vec2<T>(points[k]));
             });

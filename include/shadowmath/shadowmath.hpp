@@ -42,6 +42,7 @@
 #include <shadowmath/plane_choice.hpp>
 #include <shadowmath/plane_set.hpp>
 #include <shadowmath/points.hpp>
+#include <shadowmath/slice_warps.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 

@@ -162,6 +162,7 @@ int every_function() noexcept {
     count += keep(&depth_code<T>, &decoded_depth<T>, &gpu_sample_fit<float>);
     count += keep(&texture_from_world<T>);
     count += keep(&bound_slices<T>, &fit_slice_focus<T>, &fit_slice_boxes_of<T>);
+    count += keep(&fit_slice_warps<T>);
     count += keep(&fit_slice_boxes<T>, &fit_slice_spheres<T>, &clip_points<T>, &box_at<T>, &boxes_from<T>);
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&texel_shift<T>, &shimmer_texels<T>);

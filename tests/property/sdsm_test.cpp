@@ -45,7 +45,7 @@ TYPED_TEST(SdsmProperty, EverySampleIsInsideItsMapMarginIncluded) {
         int const count = static_cast<int>(1 + *below(6));
         auto const [depths, rays, bounds] = sampled(scene, count, drawn_kind(), T(0.1));
         auto const cascades = fit_samples(rays, bounds, everything<T>(), options);
-        for_each_sample(scene, [&](int x, int y, T depth) {
+        for_each_sample(scene, [&, &rays = rays](int x, int y, T depth) {
             Vec3<T> const point = from_eye(rays, x, y, depth);
             // Coordinates from the world's origin, the axes back from light space, and the rows of the map: 4 each.
             T const lost = tolerance(T(2) * glm::length(rays.eye) + T(2) * glm::length(point), 16);
@@ -128,7 +128,7 @@ TYPED_TEST(SdsmProperty, NoCasterBeforeASampleIsCutOff) {
         auto const [depths, rays, bounds] = sampled(scene, 3, drawn_kind());
         T const above = *log_uniform<T>(T(0.01), T(100));
         Vec3<T> const half = Vec3<T>(*log_uniform<T>(T(0.01), T(10)));
-        for_each_sample(scene, [&](int x, int y, T depth) {
+        for_each_sample(scene, [&, &rays = rays, &bounds = bounds](int x, int y, T depth) {
             // A box around a point on the sample's way to the light.
             Vec3<T> const point = from_eye(rays, x, y, depth) + rays.eye - Vec3<T>(T(0), T(0), above);
             Vec3<T> const world = rays.basis.x * point.x + rays.basis.y * point.y + rays.basis.depth * point.z;

@@ -25,6 +25,7 @@ TEST(Aliasing, HasThePublishedWorstCasesForARangeOfAThousand) {
     expect_near_relative(logarithmic_along(1.0, 1000.0), 6.907755278982137);
     EXPECT_NEAR(split_uniform_worst(1.0, 1000.0, 4), 4.623, 5e-4);
     EXPECT_NEAR(split_warped_worst(1.0, 1000.0, 4), 1.950, 5e-4);
+    EXPECT_NEAR(split_warped_worst(2.0, 2000.0, 4), 1.950, 5e-4);
     EXPECT_NEAR(split_logarithmic_worst(1.0, 1000.0, 4), 1.727, 5e-4);
 }
 
@@ -83,6 +84,7 @@ TEST(Aliasing, OutsideItsRangeIsZero) {
     EXPECT_EQ(plane_map_area(1.0, 1.0, 0.0, 1.0, 1.0, 1.0), 0.0);
     EXPECT_EQ(plane_map_area(1.0, 1.0, 1.0, 1.0, 0.0, 1.0), 0.0);
     EXPECT_EQ(plane_map_area(1.0, 1.0, 1.0, 1.0, nan, 1.0), 0.0);
+    EXPECT_EQ(plane_map_area(1.0, 1e-300, 1.0, 1.0, 1.0, 1e10), 0.0) << "no number";
     EXPECT_EQ(plane_map_area(1.0, -1.0, 1.0, 1.0, 1.0, 2.0), 8.0) << "an area has no sign";
 }
 

@@ -80,7 +80,6 @@ TEST(Slope, OfAPlaneThatTheLightGrazesIsTheLimit) {
 
 TEST(Slope, WithoutANormalOrAMapIsZero) {
     Overhead const overhead;
-    Vec3<double> const up(0, 1, 0);
     for (auto const& s :
          {slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0), 1.0),
           slope(overhead.map, 0, Vec3<double>(0), Vec3<double>(1, 1, 1), 1.0),
@@ -112,6 +111,28 @@ TEST(BiasFor, MetresOfAPlainMapAreAConstantShareOfItsDepth) {
     MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
     EXPECT_NEAR(bias.constant - rounding, 0.2 / 40, 1e-15);
     EXPECT_EQ(bias.per_inverse_w, 0.0);
+}
+
+TEST(BiasFor, IsMadeForFloatsUnlessToldOtherwise) {
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    double const rounding = bias_for(overhead.map, overhead.light, 100, options).constant;
+    options.depth_step = BiasOptions<double>{}.depth_step;
+    EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).constant - rounding, 2 * 0x1p-23, 1e-15);
+}
+
+TEST(BiasFor, KnowsAMapOfOneTexel) {
+    Overhead const overhead;
+    BiasOptions<double> options = nothing();
+    options.metres = 0.2;
+    EXPECT_GE(bias_for(overhead.map, overhead.light, 1, options).constant, 0.2 / 40);
+    EXPECT_EQ(bias_for(overhead.map, overhead.light, 0, options).constant, 0.0);
+}
+
+TEST(NormalOffsetAt, IsZeroInAMapWithoutDepth) {
+    Overhead overhead;
+    for (int column = 0; column < 4; ++column) overhead.map.clip_from_world[column][2] = 0;
+    EXPECT_EQ(normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(0, 1, 0), 1.0), 0.0);
 }
 
 TEST(BiasFor, FlatTexelsAreTexelsOfAPlaneAtHalfARightAngle) {

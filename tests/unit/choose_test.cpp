@@ -58,6 +58,30 @@ TEST(Choose, IsNoWorseThanAnyOptionsThatOneMightTry) {
     }
 }
 
+TEST(Choose, TriesOneMapOnceAndTwoAtTwentyNineSplits) {
+    ChoiceLimits<double> limits;
+    limits.most_maps = 1;
+    EXPECT_EQ(Chosen{}.within(limits).tried, 1);
+    limits.most_maps = 2;
+    EXPECT_EQ(Chosen{}.within(limits).tried, 1 + 29);
+}
+
+TEST(Choose, SaysWhichLimitsAreOutsideTheirRange) {
+    ChoiceLimits<double> least;
+    least.most_maps = 1;
+    least.texels = 16;
+    least.largest_map = 4;
+    EXPECT_FALSE(Chosen{}.within(least).faults.any());
+    for (int i = 0; i < 4; ++i) {
+        ChoiceLimits<double> limits = least;
+        if (i == 0) limits.most_maps = 0;
+        if (i == 1) limits.most_maps = max_splits + 1;
+        if (i == 2) limits.texels = 15;
+        if (i == 3) limits.largest_map = 3;
+        EXPECT_TRUE(Chosen{}.within(limits).faults.has(Fault::clamped_option)) << i;
+    }
+}
+
 // Between the eleven values first tried it goes on: a hundred values for its own count and fit find nothing better.
 TEST(Choose, PlacesTheSplitsToAHundredth) {
     Chosen const chosen;

@@ -154,12 +154,26 @@ TYPED_TEST(DepthRangeOf, PointsAndPlanesHaveAnExtentToo) {
     EXPECT_TRUE(this->close(this->range(point, this->ground).lo, 0));
 }
 
+TYPED_TEST(DepthRangeOf, SidesOrASliceThatAreNoNumbersHaveNone) {
+    using T = TypeParam;
+    T const nan = std::numeric_limits<T>::quiet_NaN();
+    EXPECT_TRUE(this->range(this->tower, this->ground).visible);
+    for (T* const number : {&this->sides.lo.x, &this->sides.lo.y, &this->sides.hi.x, &this->sides.hi.y, &this->slice.lo,
+                            &this->slice.hi}) {
+        T const kept = *number;
+        *number = nan;
+        EXPECT_FALSE(this->range(this->tower, this->ground).visible);
+        *number = kept;
+    }
+}
+
 TYPED_TEST(DepthRangeOf, StepsWidenOutwardToWholeMultiples) {
     using T = TypeParam;
     auto const range = in_steps(DepthRange<T>{T(-41.3), T(7.1), true}, T(4));
     EXPECT_EQ(range.lo, T(-44));
     EXPECT_EQ(range.hi, T(8));
     EXPECT_TRUE(range.visible);
+    EXPECT_EQ(in_steps(DepthRange<T>{T(-41.3), T(7.1), true}, T(0.5)).lo, T(-41.5));
     DepthRange<T> const plain{T(-41.3), T(7.1), true};
     for (T const step : {T(0), T(-1), std::numeric_limits<T>::quiet_NaN(), T(1e-30L)})
         EXPECT_EQ(in_steps(plain, step).lo, plain.lo);

@@ -18,6 +18,8 @@ TEST(Faults, AddUpAtCompileTime) {
     static_assert(faults.has(Fault::zero_light) && faults.has(Fault::bad_pose) && !faults.has(Fault::not_finite));
     static_assert(faults != Faults(Fault::zero_light) && laws::is_a_union(faults, Fault::empty_range));
     EXPECT_TRUE(faults.any());
+    EXPECT_TRUE(faults != Faults(Fault::zero_light));
+    EXPECT_FALSE(faults != faults);
 }
 
 TEST(Faults, HaveOneSentenceEach) {

@@ -117,6 +117,8 @@ TEST(Visibility, IsOneWhereAMapDoesNotHoldThePoint) {
     auto const black = [](int, int) { return 0.0; };
     Vec3<double> const inside(0, -0.5, 0), up(0, 1, 0);
     EXPECT_EQ(visibility(map, 16, inside, up, {}, {}, black), 0.0);
+    EXPECT_LT(visibility(map, 1, inside, up, {}, {}, black), 1.0) << "a map of one texel is a map";
+    EXPECT_EQ(visibility(map, 0, inside, up, {}, {}, black), 1.0);
     EXPECT_EQ(visibility(map, 16, Vec3<double>(3, -0.5, 0), up, {}, {}, black), 1.0);
     map.w_min = 1.0;  // w is 1 everywhere
     EXPECT_EQ(visibility(map, 16, inside, up, {}, {}, black), 1.0);

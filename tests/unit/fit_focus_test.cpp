@@ -93,3 +93,30 @@ TEST(FitFocus, MendsBoxesWithoutEnd) {
     ASSERT_TRUE(focus.result.visible);
     for (glm::vec3 const& corner : corners(view)) EXPECT_TRUE(laws::may_contain(focus.result.receivers, corner, 1e-3f));
 }
+
+TEST(FitFocus, RefusesAViewThatReachesBeyondATrillionMetres) {
+    auto const is_visible = [](ViewVolume<double> const& slice) {
+        return focus_of(slice, overhead, world, ground).visible;
+    };
+    Pose<double> const pose = level_slice().pose;
+    ViewVolume<double> const flat = orthographic_view(pose, -20.0, 20.0, -20.0, 20.0, 5.0, 40.0);
+    EXPECT_TRUE(is_visible(level_slice()));
+    EXPECT_TRUE(is_visible(flat));
+    for (double const far_out : {1e11, 1e13}) {
+        ViewVolume<double> slices[] = {level_slice(), level_slice(), level_slice(), level_slice(),
+                                       flat,          flat,          flat,          flat};
+        for (int i = 0; i < 8; i += 4) {
+            slices[i].left = slices[i + 2].bottom = -far_out;
+            slices[i + 1].right = slices[i + 3].top = far_out;
+        }
+        // At 40 m a side of 1e11 is 4e12 m away in perspective, and 1e11 m in an orthographic view.
+        for (int i = 0; i < 8; ++i) EXPECT_EQ(is_visible(slices[i]), i >= 4 && far_out < 1e12) << i << ' ' << far_out;
+    }
+}
+
+TEST(FitFocus, HasDepthWhereWhatIsSeenAndWhatCastsIsOnePlane) {
+    Aabb<double> const floor{V3(-500, 0, -500), V3(500, 0, 500)};
+    Focus<double> const focus = focus_of(level_slice(), overhead, floor, floor);
+    ASSERT_TRUE(focus.visible);
+    EXPECT_GE(focus.depth.hi - focus.depth.lo, 0.9e-6);
+}

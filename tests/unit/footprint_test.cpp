@@ -149,6 +149,8 @@ TEST(Footprint, OfBadNumbersIsNothing) {
     Vec3<double> const point(5, 0, 0), up(0, 1, 0);
     for (Footprint<double> const& bad : {footprint(eye(), Vec2<double>(pixels), map, texels, Vec3<double>(nan), up),
                                          footprint(eye(), Vec2<double>(nan), map, texels, point, up),
+                                         footprint(eye(), Vec2<double>(-pixels, pixels), map, texels, point, up),
+                                         footprint(eye(), Vec2<double>(pixels, -pixels), map, texels, point, up),
                                          footprint(eye(), Vec2<double>(pixels), map, texels, point, Vec3<double>(0)),
                                          footprint(eye() * nan, Vec2<double>(pixels), map, texels, point, up)})
         EXPECT_EQ(bad.major, 0.0);
@@ -184,4 +186,17 @@ TEST(Footprint, OfAMapWithoutTexelsIsTheLimit) {
     for (double const none :
          {0.0, -texels, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
         EXPECT_EQ(of(none).major, footprint_limit<double>) << none;
+}
+
+TEST(Footprint, OfAPictureOfHalfAPixelIsNotNothing) {
+    Footprint<double> const half =
+        footprint(eye(), Vec2<double>(0.5), uniform_map(n, f), texels, Vec3<double>(5, 0, 0), Vec3<double>(-1, 1, 0));
+    EXPECT_GT(half.major, 0.0);
+}
+
+TEST(PriceOf, IsATenthOfAFineTexelAndEndsWhereTheShadowIsLost) {
+    EXPECT_NEAR(price_of(1.0), 0.1, 1e-15);
+    EXPECT_NEAR(price_of(1.4), 0.14, 1e-15);
+    EXPECT_NEAR(price_of(31.4), 0.14 + 30 / std::sqrt(2.0), 1e-13);
+    EXPECT_NEAR(price_of(1e9), 30.14, 1e-6);
 }

@@ -54,6 +54,10 @@ TEST(GpuSamples, InputsWithFaultsAskForNoSplit) {
 TEST(GpuSamples, AFaceThatTheLightRunsAlongIsSkipped) {
     GpuSampleFit const fit = fit_of(ViewVolume<float>{}, Light<float>{}, brick);
     EXPECT_EQ(Vec3<float>(fit.inverse_along), Vec3<float>(0.0f, -1.0f, 0.0f));
+    GpuSampleFit const slanting = fit_of(ViewVolume<float>{}, directional(Vec3<float>(0.6f, -0.8f, 0.0f)), brick);
+    EXPECT_NEAR(slanting.inverse_along.x, 1 / 0.6f, 1e-6f);
+    EXPECT_NEAR(slanting.inverse_along.y, -1 / 0.8f, 1e-6f);
+    EXPECT_EQ(slanting.inverse_along.z, 0.0f);
 }
 
 TEST(GpuSamples, SayWhatWasAskedFor) {
@@ -76,6 +80,7 @@ TEST(GpuSamples, SayWhatWasAskedFor) {
     options.margin_texels = 6.0f;
     EXPECT_EQ(fit(camera).forward.w, 0.5f * 12.0f / 500.0f) << "half of what is left, as a share of what is used";
     EXPECT_NEAR(fit(camera).right.w * 499.0f, 1.0f, 1e-6f);
+    EXPECT_GT(fit(camera).right.w * 499.0f, 1.0f) << "rounded upward";
     splits.kind = SampleSplits::even;
     EXPECT_EQ(fit(camera).adaptive, 0);
     for (auto const& [count, kept] : {std::pair(-2, 0), std::pair(3, 3), std::pair(1000, max_splits)}) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
 #include <vector>
 
 using namespace shadowmath;
@@ -65,6 +67,37 @@ TEST(Splits, ARangeOfThreeNumbersHoldsTwoSplits) {
     EXPECT_TRUE(splits.faults.has(Fault::count_clamped));
 }
 
+TEST(Splits, AreOrderedInTheNarrowestRanges) {
+    float const a = 1.0f;
+    float b = a;
+    for (int numbers = 1; numbers <= 9; ++numbers) {
+        b = std::nextafter(b, 2.0f);
+        for (float const lambda : {0.0f, 0.3f, 0.5f, 1.0f})
+            EXPECT_TRUE(laws::is_ordered(practical_splits(a, b, 4, lambda), a, b, 4)) << numbers << ' ' << lambda;
+    }
+}
+
+TEST(Splits, AreOfTheNearestLambdaAndSaySoWhereItIsOutsideItsRange) {
+    for (int const count : {3, 4}) {
+        double const nan = std::numeric_limits<double>::quiet_NaN();
+        for (auto const& [asked, used] : {std::pair{1.5, 1.0}, std::pair{-0.5, 0.0}, std::pair{nan, 0.5}}) {
+            Splits<double> const splits = practical_splits(1.0, 100.0, count, asked);
+            EXPECT_EQ(planes(splits), planes(practical_splits(1.0, 100.0, count, used))) << asked;
+            EXPECT_TRUE(splits.faults.has(Fault::clamped_option));
+        }
+        EXPECT_TRUE(pinned_splits(1.0, 100.0, count, 2.0, 1.5).faults.has(Fault::clamped_option));
+    }
+}
+
+TEST(Splits, SayWhereNoRatioOfDistancesExists) {
+    for (int const count : {3, 4}) {
+        EXPECT_TRUE(practical_splits(0x1p-70, 1.0, count).faults.has(Fault::near_clamped));
+        EXPECT_FALSE(practical_splits(0x1p-60, 1.0, count).faults.has(Fault::near_clamped));
+        EXPECT_FALSE(practical_splits(0x1p-70, 1.0, count, 0.0).faults.has(Fault::near_clamped));
+        EXPECT_NEAR(logarithmic_splits(0.0, 1.0, count).plane[count - 1], std::pow(0x1p-20, 1.0 / count), 1e-15);
+    }
+}
+
 TEST(Splits, AreTheCallersOwnWhenExplicit) {
     double const inner[] = {5, 20, 60};
     EXPECT_EQ(planes(explicit_splits(1.0, 100.0, inner, 4)), (std::vector<double>{1, 5, 20, 60, 100}));
@@ -72,6 +105,8 @@ TEST(Splits, AreTheCallersOwnWhenExplicit) {
     Splits<double> const mended = explicit_splits(1.0, 100.0, unordered, 6);
     EXPECT_EQ(planes(mended), (std::vector<double>{1, 5, 60, 100}));
     EXPECT_TRUE(mended.faults.has(Fault::count_clamped));
+    double const more[] = {5, 20, 60, std::numeric_limits<double>::quiet_NaN(), 70};
+    EXPECT_EQ(planes(explicit_splits(1.0, 100.0, more, 4)), (std::vector<double>{1, 5, 20, 60, 100}));
 }
 
 TEST(Splits, BeginWithTheOneThatIsPinned) {
@@ -80,14 +115,21 @@ TEST(Splits, BeginWithTheOneThatIsPinned) {
     EXPECT_EQ(splits.plane[1], 2.5);
     Splits<double> const behind = practical_splits(2.5, 200.0, 3);
     for (int i = 0; i <= 3; ++i) EXPECT_EQ(splits.plane[i + 1], behind.plane[i]);
-    EXPECT_TRUE(pinned_splits(0.1, 200.0, 4, 500.0).faults.has(Fault::clamped_option));
-    EXPECT_EQ(planes(pinned_splits(0.1, 200.0, 4, 500.0)), planes(practical_splits(0.1, 200.0, 4)));
+    for (double const outside : {0.05, 0.1, 200.0, 500.0}) {
+        EXPECT_TRUE(pinned_splits(0.1, 200.0, 4, outside).faults.has(Fault::clamped_option)) << outside;
+        EXPECT_EQ(planes(pinned_splits(0.1, 200.0, 4, outside)), planes(practical_splits(0.1, 200.0, 4))) << outside;
+    }
 }
 
 TEST(Splits, LambdaIsAHalfWhereNoFirstSplitCouldTellIt) {
     EXPECT_EQ(lambda_for_first_split(1.0, 10.0, 1, 3.0), 0.5) << "one split has no inner plane";
     EXPECT_EQ(lambda_for_first_split(10.0, 1.0, 3, 3.0), 0.5);
     EXPECT_EQ(lambda_for_first_split(1.0, 10.0, 3, std::numeric_limits<double>::infinity()), 0.5);
+}
+
+TEST(Splits, LambdaIsTheNearestWhereNonePutsTheFirstPlaneThere) {
+    EXPECT_EQ(lambda_for_first_split(1.0, 100.0, 4, 90.0), 0.0);
+    EXPECT_EQ(lambda_for_first_split(1.0, 100.0, 4, 1.01), 1.0);
 }
 
 TEST(Splits, LambdaIsAHalfWhereUniformAndLogarithmicAreAlike) {
