@@ -21,8 +21,6 @@ namespace {
 using Corners = std::array<glm::dvec2, 4>;  // left bottom, right bottom, left top, right top
 using Random = std::mt19937_64;
 
-constexpr double nothing = std::numeric_limits<double>::infinity();
-
 double uniform(Random& random) {
     return double(random() >> 11) * 0x1p-53;
 }
@@ -51,22 +49,6 @@ struct Sample {
     double weight = 1.0;
 };
 
-LightSample<double> as_light_sample(LightPixel const& pixel) {
-    LightSample<double> sample;
-    sample.place = pixel.place;
-    sample.gain_x = pixel.gain_x;
-    sample.gain_y = pixel.gain_y;
-    return sample;
-}
-
-// Infinite outside.
-double major_in(Quad<double> const& quad, double usable_texels, LightPixel const& pixel) {
-    glm::dvec3 const p(pixel.place, 1.0);
-    double const w = glm::dot(quad.w, p);
-    if (!(w > 0.0) || std::abs(glm::dot(quad.x, p)) > w || std::abs(glm::dot(quad.y, p)) > w) return nothing;
-    return major_at(quad, usable_texels, as_light_sample(pixel));
-}
-
 // The quadrilateral of least price around some samples, among sixteen rectangles.
 Corners rectangle_around(std::vector<Sample> const& samples, std::vector<std::size_t> const& which,
                          double usable_texels) {
@@ -79,11 +61,11 @@ Corners rectangle_around(std::vector<Sample> const& samples, std::vector<std::si
     }
     double const principal = 0.5 * std::atan2(2.0 * xy, xx - yy);
     Corners best{};
-    double least = nothing;
+    double least = outside;
     for (int turn = 0; turn < 16; ++turn) {
         double const angle = principal + 1.5707963267948966 * turn / 16.0;
         glm::dvec2 const a(std::cos(angle), std::sin(angle)), b(-a.y, a.x);
-        glm::dvec2 lo(nothing), hi(-nothing);
+        glm::dvec2 lo(outside), hi(-outside);
         for (std::size_t const i : which) {
             glm::dvec2 const d = samples[i].pixel.place - mean, at(glm::dot(a, d), glm::dot(b, d));
             lo = glm::min(lo, at);
@@ -117,7 +99,7 @@ public:
     }
 
     std::vector<Quad<double>> run(std::vector<Quad<double>> const& given) {
-        double least = nothing;
+        double least = outside;
         std::vector<Quad<double>> best;
         auto const keep = [&] {
             if (!(value_ < least)) return;
@@ -142,16 +124,13 @@ private:
     // cost in the given maps, and a quarter by what they would in a map alike all over.
     void take(std::vector<LightPixel> const& pixels, std::vector<Quad<double>> const& given) {
         std::vector<double> cost(pixels.size(), 1.0), even(pixels.size(), 1.0);
-        if (aim_ != Aim::p95) {
-            auto const counted = [&](double major) { return aim_ == Aim::mean ? major : price_of(major); };
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
-                LightPixel const& p = pixels[i];
-                double least = nothing;
-                for (Quad<double> const& quad : given) least = std::min(least, major_in(quad, usable_, p));
-                cost[i] = least < nothing ? counted(least) : 1.0;
-                double const longest = std::sqrt(glm::dot(p.gain_x, p.gain_x) + glm::dot(p.gain_y, p.gain_y));
-                even[i] = aim_ == Aim::mean ? std::min(longest, footprint_limit<double>) : 1.0;
-            }
+        for (std::size_t i = 0; i < pixels.size() && aim_ == Aim::mean; ++i) {
+            LightPixel const& p = pixels[i];
+            double least = outside;
+            for (Quad<double> const& quad : given) least = std::min(least, major_in(quad, usable_, p));
+            if (least < outside) cost[i] = least;
+            double const longest = std::sqrt(glm::dot(p.gain_x, p.gain_x) + glm::dot(p.gain_y, p.gain_y));
+            even[i] = std::min(longest, footprint_limit<double>);
         }
         double sum = 0.0, even_sum = 0.0;
         for (double const one : cost) sum += one;
@@ -182,7 +161,7 @@ private:
         if (aim_ == Aim::p95) {
             sorted_.clear();
             for (std::size_t i = 0; i < samples_.size(); ++i) {
-                if (!(major[i] < nothing)) return nothing;
+                if (!(major[i] < outside)) return outside;
                 if (samples_[i].weight > 0.0) sorted_.push_back(major[i]);
             }
             auto const at = sorted_.begin() + std::ptrdiff_t(0.95 * double(sorted_.size() - 1));
@@ -194,8 +173,8 @@ private:
         }
         double sum = 0.0;
         for (std::size_t i = 0; i < samples_.size(); ++i) {
-            if (!(major[i] < nothing)) return nothing;
-            sum += samples_[i].weight * (aim_ == Aim::mean ? major[i] : price_of(major[i]));
+            if (!(major[i] < outside)) return outside;
+            sum += samples_[i].weight * major[i];
         }
         return sum / total_;
     }
@@ -208,11 +187,11 @@ private:
         if (quads_.empty()) return false;
         majors_.assign(quads_.size(), std::vector<double>(samples_.size()));
         for (std::size_t k = 0; k < quads_.size(); ++k) judge_map(quads_[k], majors_[k]);
-        least_.assign(samples_.size(), nothing);
+        least_.assign(samples_.size(), outside);
         for (auto const& majors : majors_)
             for (std::size_t i = 0; i < majors.size(); ++i) least_[i] = std::min(least_[i], majors[i]);
         value_ = value_of(least_);
-        return value_ < nothing;
+        return value_ < outside;
     }
 
     bool start_from(std::vector<Quad<double>> const& given) {
@@ -237,7 +216,7 @@ private:
         std::vector<std::size_t> lost;
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             bool held = false;
-            for (Quad<double> const& quad : quads_) held = held || major_in(quad, usable_, samples_[i].pixel) < nothing;
+            for (Quad<double> const& quad : quads_) held = held || major_in(quad, usable_, samples_[i].pixel) < outside;
             if (!held) lost.push_back(i);
         }
         if (lost.empty()) return;
@@ -245,7 +224,7 @@ private:
         for (std::size_t k = 1; k < quads_.size(); ++k)
             if (area(quads_[k]) > area(quads_[largest])) largest = k;
         for (std::size_t i = 0; i < samples_.size(); ++i)
-            if (major_in(quads_[largest], usable_, samples_[i].pixel) < nothing) lost.push_back(i);
+            if (major_in(quads_[largest], usable_, samples_[i].pixel) < outside) lost.push_back(i);
         corners_[largest] = rectangle_around(samples_, lost, usable_);
         quads_[largest] = quad_through(corners_[largest]);
     }
@@ -284,7 +263,7 @@ private:
             std::vector<Feature> sum(maps_, Feature{});
             std::vector<double> count(maps_, 0.0);
             for (std::size_t i = 0; i < at.size(); ++i) {
-                double nearest = nothing;
+                double nearest = outside;
                 for (std::size_t k = 0; k < maps_; ++k) {
                     double distance = 0.0;
                     for (std::size_t f = 0; f < features; ++f)
@@ -368,7 +347,7 @@ private:
                 for (std::size_t other = 0; other < quads_.size(); ++other)
                     if (other != k) one = std::min(one, majors_[other][i]);
                 least[i] = one;
-                if (!(one < nothing)) {
+                if (!(one < outside)) {
                     held = false;
                     break;
                 }
@@ -404,71 +383,22 @@ private:
     std::vector<Quad<double>> quads_;
     std::vector<std::vector<double>> majors_;
     std::vector<double> least_, sorted_;
-    double value_ = nothing;
+    double value_ = outside;
 };
 
 }  // namespace
-
-std::vector<LightPixel> light_pixels(std::vector<SurfacePoint<double>> const& surfaces, scenes::View const& view,
-                                     backend::Extent extent) {
-    Pose<double> const pose = pose_looking(view.eye, view.forward, view.up);
-    LightBasis<double> const basis = light_basis(view.light_travel);
-    double const top = std::tan(view.fov_y_radians / 2.0), scale = 0.5 * extent.height / top;
-    std::vector<LightPixel> pixels;
-    for (SurfacePoint<double> const& surface : surfaces) {
-        glm::dvec3 const from_eye = surface.point - pose.position, n = glm::normalize(surface.normal);
-        LightPixel pixel;
-        double const depth = glm::dot(pose.forward, from_eye), lean = -glm::dot(n, basis.depth);
-        pixel.seen = {glm::dot(pose.right, from_eye) / depth, glm::dot(pose.up, from_eye) / depth, depth};
-        pixel.place = {glm::dot(basis.x, from_eye), glm::dot(basis.y, from_eye)};
-        auto const gain = [&](glm::dvec3 const& axis) {
-            glm::dvec3 const way = axis + basis.depth * (glm::dot(n, axis) / lean);
-            double const away = glm::dot(pose.forward, way);
-            return glm::dvec2(glm::dot(pose.right, way) - pixel.seen.x * away,
-                              glm::dot(pose.up, way) - pixel.seen.y * away) *
-                   (scale / depth);
-        };
-        pixel.gain_x = gain(basis.x);
-        pixel.gain_y = gain(basis.y);
-        if (depth > 0.0 && lean > 0.0) pixels.push_back(pixel);
-    }
-    return pixels;
-}
-
-Quad<double> quad_of(glm::dmat4 const& clip_from_world, scenes::View const& view, double share) {
-    LightBasis<double> const basis = light_basis(view.light_travel);
-    glm::dmat4 const rows = glm::transpose(clip_from_world);
-    auto const on_plane = [&](glm::dvec4 const& row) {
-        glm::dvec3 const n(row);
-        return glm::dvec3(glm::dot(n, basis.x), glm::dot(n, basis.y), row.w + glm::dot(n, view.eye));
-    };
-    Quad<double> quad;
-    quad.x = on_plane(rows[0]) / share;
-    quad.y = on_plane(rows[1]) / share;
-    quad.w = on_plane(rows[3]);
-    for (unsigned i = 0; i < 4; ++i) {
-        double const x = (i & 1u) != 0 ? 1.0 : -1.0, y = (i & 2u) != 0 ? 1.0 : -1.0;
-        glm::dvec3 const corner = glm::cross(quad.x - x * quad.w, quad.y - y * quad.w);
-        quad.corner[i] = glm::dvec2(corner) / corner.z;
-    }
-    quad.visible = true;
-    return quad;
-}
 
 Found measured(std::vector<LightPixel> const& pixels, std::vector<Quad<double>> const& maps, double usable_texels) {
     Found found;
     found.maps = maps;
     std::vector<double> majors;
     for (LightPixel const& pixel : pixels) {
-        double least = nothing;
+        double least = outside;
         for (Quad<double> const& quad : maps) least = std::min(least, major_in(quad, usable_texels, pixel));
-        if (least < nothing) majors.push_back(least);
+        if (least < outside) majors.push_back(least);
     }
     if (majors.empty()) return found;
-    for (double const major : majors) {
-        found.mean += major / double(majors.size());
-        found.price += price_of(major) / double(majors.size());
-    }
+    for (double const major : majors) found.mean += major / double(majors.size());
     auto const at = majors.begin() + std::ptrdiff_t(0.95 * double(majors.size() - 1));
     std::ranges::nth_element(majors, at);
     found.p95 = *at;

@@ -9,44 +9,21 @@
 // finest there: no rule of selection does better. Neither bias nor a limit of warp is asked for.
 #pragma once
 
-#include "examples/gallery/techniques.hpp"
-#include "scenes/view.hpp"
-
-#include <shadowmath/judge.hpp>
-#include <shadowmath/quad_map.hpp>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include "examples/quality/light_pixels.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace shadowmath::quality {
 
-// A pixel as the light sees it: nothing of it is clamped, unlike the samples of the library's own search.
-struct LightPixel {
-    glm::dvec2 place{0.0};                // metres of the light's plane, from the eye
-    glm::dvec2 gain_x{0.0}, gain_y{0.0};  // eye pixels for a metre of the plane along its axes, on the surface
-    glm::dvec3 seen{0.0};                 // side x, side y, eye depth
-};
-
-// Of every pixel that faces the light within the shadow distance.
-[[nodiscard]] std::vector<LightPixel> light_pixels(std::vector<SurfacePoint<double>> const& surfaces,
-                                                   scenes::View const& view, backend::Extent extent);
-
-// The quadrilateral that a sun's map serves with its middle `share` of texels along a side.
-[[nodiscard]] Quad<double> quad_of(glm::dmat4 const& clip_from_world, scenes::View const& view, double share);
-
 enum class Aim : std::uint8_t {
-    mean,         // of the footprints
-    p95,          // their 95th percentile
-    fewest_wrong  // the mean of price_of
+    mean,  // of the footprints
+    p95    // their 95th percentile
 };
 
 struct Found {
     std::vector<Quad<double>> maps;  // finest first
     double mean = 0.0, p95 = 0.0;    // eye pixels a texel, over all pixels; those in no map are left out
-    double price = 0.0;
     double unmapped = 0.0;  // share of pixels
 };
 

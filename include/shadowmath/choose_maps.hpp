@@ -6,6 +6,8 @@
 //                                                              ├─ parts ── fit_quad ────┼─ quad_map ── map 1
 //   from boxes alone      ── what it may see (box_samples) ────┘  (part_search)         └─ ...
 //
+// Before they are maps, the quadrilaterals move against each other once more (quad_settle.hpp).
+//
 // Every map of a sun is a homography of the light's plane: a box, a rectangle at any angle, a warp of any strength, a
 // view-dependent map. So none of these is a policy here. Each part of the picture gets the quadrilateral whose texels
 // look smallest in it, whatever it may be called. Maps come finest first and are looked up by by_map (sampling.hpp): a
@@ -130,7 +132,7 @@ template <class T>
 template <class T, class Bound, class Cover>
 [[nodiscard]] inline ChosenMaps<T> search_maps(LightSampler<T> const& sampler, Aabb<T> const& casters,
                                                MapLimits<T> const& limits, MapSearch<T>& work, Bound const& bound,
-                                               Cover const& cover, bool piecewise) noexcept {
+                                               Cover const& cover) noexcept {
     ChosenMaps<T> chosen;
     if (work.count == 0) return chosen;
     PartSearch<T, Bound> search{work, bound, usable_texels(limits.map_size, limits.margin_texels), priced_samples};
@@ -150,10 +152,8 @@ template <class T, class Bound, class Cover>
         stack = candidate;
     }
     chosen.tried = search.tried;
-    if (piecewise) {
-        stack = settled(work, stack, search.usable_texels, cover);
-        least = price_in(stack, work, search.usable_texels);
-    }
+    stack = settled(work, stack, search.usable_texels, cover);
+    least = price_in(stack, work, search.usable_texels);
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.
@@ -320,7 +320,7 @@ template <class T>
             });
         }
     };
-    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover, true);
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
     chosen.faults |= in.faults;
     return chosen;
 }
@@ -371,7 +371,7 @@ template <class T>
             for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
         });
     };
-    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover, false);
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
     chosen.faults |= in.faults;
     return chosen;
 }

@@ -56,13 +56,13 @@ template <class T>
     return moved(quad_between(sided.side), sided.middle);
 }
 
-// Each side moved out, where it stands, until the points are inside and a little more.
-template <class T>
-inline void grow(SidedQuad<T>& sided, Vec2<T> const* points, int count) noexcept {
+// Each side moved out, where it stands, until the points (their x and y) are inside and a little more.
+template <class T, class Point>
+inline void grow(SidedQuad<T>& sided, Point const* points, int count) noexcept {
     for (Vec3<T>& side : sided.side) {
         T least = T(0);
         for (int i = 0; i < count; ++i) {
-            Vec2<T> const p = points[i] - sided.middle;
+            Vec2<T> const p = Vec2<T>(points[i]) - sided.middle;
             T const inside = side.x * p.x + side.y * p.y + side.z;
             least = inside < least ? inside : least;
         }
@@ -230,6 +230,29 @@ private:
     T price_ = std::numeric_limits<T>::max();
 };
 
+// The octagon around more points than a piece can keep.
+template <class T>
+inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) noexcept {
+    constexpr unsigned sides = 8;
+    static_assert(sides == max_piece_points);
+    T const half = std::sqrt(T(0.5));
+    std::array<Vec2<T>, sides> const way{Vec2<T>(1, 0),  Vec2<T>(half, half),   Vec2<T>(0, 1),  Vec2<T>(-half, half),
+                                         Vec2<T>(-1, 0), Vec2<T>(-half, -half), Vec2<T>(0, -1), Vec2<T>(half, -half)};
+    std::array<T, sides> reach;
+    for (unsigned d = 0; d < sides; ++d) {
+        reach[d] = std::numeric_limits<T>::lowest();
+        for (int i = 0; i < count; ++i) {
+            T const here = way[d].x * points[i].x + way[d].y * points[i].y;
+            reach[d] = here > reach[d] ? here : reach[d];
+        }
+    }
+    // Where two neighbouring sides meet: half a right angle apart, so the determinant is its sine.
+    for (unsigned d = 0; d < sides; ++d) {
+        unsigned const e = (d + 1) % sides;
+        piece.point[d] = Vec2<T>(reach[d] * way[e].y - reach[e] * way[d].y, reach[e] * way[d].x - reach[d] * way[e].x) / half;
+    }
+}
+
 // Every n-th of the pieces of the stack's parts, n as small as there is room, and in each part those that reach
 // farthest in each of the directions of fit_quad.
 template <class T, class Cover>
@@ -243,8 +266,11 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     work.piece_count = 0;
     auto const put = [&work](unsigned at, Vec3<T> const* points, int count) {
         SettlingPiece<T>& piece = work.piece[at];
-        piece.count = count;
-        for (int i = 0; i < count; ++i) piece.point[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
+        piece.count = count < max_piece_points ? count : max_piece_points;
+        if (count <= max_piece_points)
+            for (int i = 0; i < count; ++i) piece.point[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
+        else
+            outline(piece, points, count);
     };
     constexpr int at_rim = quad_directions * max_chosen_maps, even = max_settling_pieces - at_rim;
     Supports<T> const around = no_supports(SampleFrame<T>{});
@@ -257,7 +283,6 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
         for (unsigned d = 0; d < quad_directions; ++d) work.piece[rim + d].count = 0;
         int seen = 0;
         cover(part, [&](Vec3<T> const* points, int count) {
-            if (count > max_piece_points) return;
             for (unsigned d = 0; d < quad_directions; ++d) {
                 Vec2<T> const& way = around.direction[d];
                 T farthest = std::numeric_limits<T>::lowest();
@@ -290,12 +315,6 @@ template <class T, class Cover>
     bool sound = true;
     auto const keep = [&](Vec3<T> const* points, int count) {
         if (!sound || settled.holder(points, count) >= 0) return;
-        if (count > max_piece_points) {
-            sound = false;
-            return;
-        }
-        std::array<Vec2<T>, max_piece_points> places;
-        for (int i = 0; i < count; ++i) places[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
         // Whose area grows least, of all.
         T least = std::numeric_limits<T>::max();
         unsigned best = max_chosen_maps;
@@ -303,7 +322,7 @@ template <class T, class Cover>
         Quad<T> best_quad;
         for (unsigned k = 0; k < static_cast<unsigned>(settled.count); ++k) {
             SidedQuad<T> grown = sided[k];
-            grow(grown, places.data(), count);
+            grow(grown, points, count);
             Quad<T> const quad = quad_of(grown);
             if (!quad.visible) continue;
             T const more = area(quad) / area(settled.quad[k]);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -104,15 +105,31 @@ TEST(QuadSettle, OfOneMapIsThatMap) {
     EXPECT_EQ(settled.quad[0].x, field.stack.quad[0].x);
 }
 
-// A piece of more points than are kept for one: such a stack stays as it is rather than lose it.
-TEST(QuadSettle, WherePiecesAreTooManyPointsNothingMovesAway) {
+// Of a piece of more points than are kept its outline is.
+TEST(QuadSettle, APieceOfManyPointsIsHeldWhole) {
     Field field(8.0, 12.0);
     std::array<V3, 9> many{};
-    for (int i = 0; i < 9; ++i) many[unsigned(i)] = V3(11.9, i, 0);
+    for (int i = 0; i < 9; ++i) many[unsigned(i)] = V3(11.9 - 0.2 * i, i, 0);
     auto const cover = [&](ViewPart<double> const& part, auto const& visit) {
         field.cover()(part, visit);
         if (is_in(part, V3(11.9, 5, 1))) visit(many.data(), 9);
     };
     auto const settled = detail::settled(*field.work, field.stack, texels, cover);
     EXPECT_GE(settled.holder(many.data(), 9), 0);
+    EXPECT_LT(field.price(settled), field.price(field.stack));
+}
+
+TEST(QuadSettle, AnOutlineTouchesItsPointsInEightDirections) {
+    std::array<V3, 12> points{};
+    for (unsigned i = 0; i < 12; ++i) points[i] = V3(3.0 + 2.0 * std::cos(0.7 * i), -1.0 + std::sin(1.9 * i), 5.0);
+    SettlingPiece<double> piece;
+    piece.count = 8;
+    detail::outline(piece, points.data(), 12);
+    for (int k = 0; k < 8; ++k) {
+        V2 const way(std::cos(0.78539816339744831 * k), std::sin(0.78539816339744831 * k));
+        double of_points = -1e9, of_outline = -1e9;
+        for (V3 const& p : points) of_points = std::fmax(of_points, glm::dot(way, V2(p)));
+        for (V2 const& p : piece.point) of_outline = std::fmax(of_outline, glm::dot(way, p));
+        EXPECT_NEAR(of_outline, of_points, 1e-12) << k;
+    }
 }
