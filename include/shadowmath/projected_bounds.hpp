@@ -89,9 +89,10 @@ struct BoundsInBlocks {
     }
     [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
     [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
-    [[gnu::always_inline]] void add(int r, int i, std::uint32_t taken, T least, T most) noexcept {
-        lo[r][i] = less(lo[r][i], taken != 0 ? least : none);
-        hi[r][i] = more(hi[r][i], taken != 0 ? most : -none);
+    // `away`: 0, or `none` for what does not count, which is then farther in than anything.
+    [[gnu::always_inline]] void add(int r, int i, T away, T least, T most) noexcept {
+        lo[r][i] = less(least + away, lo[r][i]);
+        hi[r][i] = more(most - away, hi[r][i]);
     }
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
@@ -189,7 +190,7 @@ struct BoundsOfBoxes {
                     most[i] = above.x * x1[i] + above.y * y1[i] + above.z * z1[i];
                 }
                 // NOTE: in the loop above, this would become a branch.
-                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i], least[i], most[i]);
+                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i] != 0 ? T(0) : so_far.none, least[i], most[i]);
             }
         }
         Aabb<T> const merged = so_far.merged();
@@ -282,6 +283,8 @@ struct BoundsOfBoxes {
                 if ((block & (block - 1)) == 0) take_sides(merge(bounds, so_far.merged()), sides);
                 if (!may_extend(sides, at, taken)) continue;
             }
+            T away[bodies_at_once];
+            for (int i = 0; i < n; ++i) away[i] = taken[i] != 0 ? T(0) : so_far.none;
             for (int r = 0; r < 3; ++r) {
                 Vec4<T> const above = row(matrix, r);
                 for (int i = 0; i < n; ++i) {
@@ -295,7 +298,7 @@ struct BoundsOfBoxes {
                     auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
                     T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
                     T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
-                    so_far.add(r, i, taken[i], least, most);
+                    so_far.add(r, i, away[i], least, most);
                 }
             }
         }
