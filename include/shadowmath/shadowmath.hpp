@@ -48,6 +48,7 @@
 
 // Stillness; translate and scale.
 #include <shadowmath/clipmap.hpp>
+#include <shadowmath/projected_bounds.hpp>
 #include <shadowmath/region.hpp>
 #include <shadowmath/schedule.hpp>
 #include <shadowmath/scroll.hpp>
