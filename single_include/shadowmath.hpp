@@ -782,9 +782,16 @@ template <class T>
 }
 
 // Mends a pose that is orthonormal to 1e-3 (float matrices that were multiplied often) to the last bit or two; the
-// forward axis keeps its direction. A worse pose comes back as it is.
+// forward axis keeps its direction. A worse pose comes back as it is, and so does one that has nothing to mend.
+// NOTE: products that depend on nothing are sooner known than roots of roots, which a processor then goes on without.
 template <class T>
 [[nodiscard]] inline Pose<T> orthonormalized(Pose<T> const& pose) noexcept {
+    Vec3<T> const &r = pose.right, &u = pose.up, &f = pose.forward;
+    auto const is = [](T value, T wanted) {
+        return std::abs(value - wanted) <= T(4) * std::numeric_limits<T>::epsilon();
+    };
+    bool const unit = is(glm::dot(r, r), T(1)) & is(glm::dot(u, u), T(1)) & is(glm::dot(f, f), T(1));
+    if (unit & is(glm::dot(r, u), T(0)) & is(glm::dot(u, f), T(0)) & is(glm::dot(f, r), T(0))) return pose;
     Normalized<T> const forward = safe_normalize(pose.forward);
     Normalized<T> const right =
         safe_normalize(pose.right - forward.direction * glm::dot(forward.direction, pose.right));
@@ -3208,104 +3215,15 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/region.hpp ========
+// ======== shadowmath/projected_bounds.hpp ========
 //
-// A rectangle of a map, as a matrix on the left: crop to what is used, place in an atlas, compose both. And the
-// rectangle that a body needs, clipped before the divide.
+// What a matrix makes of bodies: the bounds in NDC of one, or of a hundred thousand boxes together, clipped before the
+// divide. The rectangle of a map that receivers or casters need (region.hpp).
 //
-// Use it after any technique: nothing here knows how the matrix was made, and neither the light's law nor the order of
-// depth is touched. Source: Kwon 2002 (thesis), 4.1, with its y scale corrected; the clip before the divide is ours.
+// Any matrix will do. Source: ours; boxes as in culling.hpp, a corner is X + Y + Z.
 
 namespace shadowmath {
 inline namespace v0 {
-
-template <class T>
-struct Region {
-    Vec2<T> lo{T(-1)};  // NDC; the default is the whole map
-    Vec2<T> hi{T(1)};
-};
-
-// A square of texels in an atlas. Rows count from texture v = 0.
-struct Tile {
-    int x = 0;
-    int y = 0;
-    int size = 0;
-    int atlas_width = 0;
-    int atlas_height = 0;
-};
-
-// Empty as soon as one axis has no length.
-template <class T>
-[[nodiscard]] inline bool is_empty(Region<T> const& region) noexcept {
-    return !(region.lo.x < region.hi.x && region.lo.y < region.hi.y);
-}
-
-// May be empty.
-template <class T>
-[[nodiscard]] inline Region<T> intersect(Region<T> const& a, Region<T> const& b) noexcept {
-    return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
-}
-
-template <class T>
-[[nodiscard]] inline Region<T> region_of(Aabb<T> const& box_in_ndc) noexcept {
-    return {Vec2<T>(box_in_ndc.lo.x, box_in_ndc.lo.y), Vec2<T>(box_in_ndc.hi.x, box_in_ndc.hi.y)};
-}
-
-// At least `least` wide on both axes, about the same centre: what a point or a line needs before it can fill a map. One
-// texel is 2 / map_size of the whole map.
-template <class T>
-[[nodiscard]] inline Region<T> widened(Region<T> const& region, T least) noexcept {
-    Region<T> wide = region;
-    for (int axis = 0; axis < 2; ++axis) {
-        if (region.hi[axis] - region.lo[axis] >= least) continue;
-        T const centre = region.lo[axis] / T(2) + region.hi[axis] / T(2);
-        wide.lo[axis] = centre - least / T(2);
-        wide.hi[axis] = centre + least / T(2);
-    }
-    return wide;
-}
-
-// Leaves `margin_texels` of the map free on every side, for the kernel of a filter. 2 * margin_texels < map_size.
-template <class T>
-[[nodiscard]] inline Region<T> with_margin(Region<T> const& region, int map_size, T margin_texels) noexcept {
-    Vec2<T> const border = (region.hi - region.lo) * (margin_texels / (T(map_size) - T(2) * margin_texels));
-    return {region.lo - border, region.hi + border};
-}
-
-// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or
-// not finite gives the identity.
-template <class T>
-[[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
-    if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
-    Vec2<T> const size = region.hi - region.lo;
-    Vec2<T> const scale = T(2) / size, offset = -(region.hi + region.lo) / size;
-    if (!all_finite(size) || !all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
-    return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
-                     Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
-}
-
-// bad_region for a tile without area, or not wholly inside its atlas.
-[[nodiscard]] constexpr Faults faults_of(Tile const& tile) noexcept {
-    // Compared by subtraction: x + size may overflow.
-    bool const inside = tile.size > 0 && tile.x >= 0 && tile.y >= 0 && tile.atlas_width > 0 && tile.atlas_height > 0 &&
-                        tile.x <= tile.atlas_width - tile.size && tile.y <= tile.atlas_height - tile.size;
-    return inside ? Faults{} : Faults(Fault::bad_region);
-}
-
-// The whole map lands on the tile: tile_matrix * clip_from_world is the map inside its atlas, to look receivers up
-// with. The identity where faults_of(tile) says bad_region.
-//
-// NOTE: nothing clips to the tile. Draw casters with the plain matrix and the tile as the viewport, and test
-// a receiver against the plain matrix first: a point beyond the map lands in a neighbour's tile.
-template <class T>
-[[nodiscard]] inline Mat4<T> tile_matrix(Tile const& tile, ClipSpace clip = {}) noexcept {
-    if (faults_of(tile).any()) return Mat4<T>(T(1));
-    T const width = T(tile.atlas_width), height = T(tile.atlas_height), size = T(tile.size);
-    T const up = clip.ndc_y == clip.texture_v ? T(1) : T(-1);
-    T const x = (T(2) * T(tile.x) + size) / width - T(1), y = (T(2) * T(tile.y) + size) / height - T(1);
-    return from_rows(Vec4<T>(size / width, T(0), T(0), x), Vec4<T>(T(0), size / height, T(0), up * y),
-                     Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
-}
 
 // Bounds in NDC of the part of a convex body at w >= w_min; empty when nothing is left, or an input is not finite. The
 // body is given by eight corners whose indices differ in one bit along an edge, as those of a box or a view volume.
@@ -3376,9 +3294,10 @@ struct BoundsInBlocks {
     }
     [[gnu::always_inline]] static T less(T a, T b) noexcept { return a < b ? a : b; }
     [[gnu::always_inline]] static T more(T a, T b) noexcept { return a > b ? a : b; }
-    [[gnu::always_inline]] void add(int r, int i, std::uint32_t taken, T least, T most) noexcept {
-        lo[r][i] = less(lo[r][i], taken != 0 ? least : none);
-        hi[r][i] = more(hi[r][i], taken != 0 ? most : -none);
+    // `away`: 0, or `none` for what does not count, which is then farther in than anything.
+    [[gnu::always_inline]] void add(int r, int i, T away, T least, T most) noexcept {
+        lo[r][i] = less(least + away, lo[r][i]);
+        hi[r][i] = more(most - away, hi[r][i]);
     }
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
@@ -3418,6 +3337,8 @@ struct BoundsOfBoxes {
     Aabb<T>& bounds;
 
     static constexpr int n = bodies_at_once;
+    // More than any w of a box in reach, with a reciprocal that is a number.
+    static constexpr T beyond_all = T(8e37);
 
     // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
     enum class Kind { all_full, some_empty, beyond_reach };
@@ -3474,7 +3395,7 @@ struct BoundsOfBoxes {
                     most[i] = above.x * x1[i] + above.y * y1[i] + above.z * z1[i];
                 }
                 // NOTE: in the loop above, this would become a branch.
-                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i], least[i], most[i]);
+                for (int i = 0; i < n; ++i) so_far.add(r, i, taken[i] != 0 ? T(0) : so_far.none, least[i], most[i]);
             }
         }
         Aabb<T> const merged = so_far.merged();
@@ -3553,10 +3474,12 @@ struct BoundsOfBoxes {
                 taken[i] &= in_front;
                 any_astride |= astride[i];
                 T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
-                inverse[0][i] = T(1) / (xy00 + w.z0), inverse[1][i] = T(1) / (xy10 + w.z0);
-                inverse[2][i] = T(1) / (xy01 + w.z0), inverse[3][i] = T(1) / (xy11 + w.z0);
-                inverse[4][i] = T(1) / (xy00 + w.z1), inverse[5][i] = T(1) / (xy10 + w.z1);
-                inverse[6][i] = T(1) / (xy01 + w.z1), inverse[7][i] = T(1) / (xy11 + w.z1);
+                // A corner that does not count may be at w = 0 itself: it is moved where it divides nothing to infinity.
+                T const z0 = in_front != 0 ? w.z0 : beyond_all, z1 = in_front != 0 ? w.z1 : beyond_all;
+                inverse[0][i] = T(1) / (xy00 + z0), inverse[1][i] = T(1) / (xy10 + z0);
+                inverse[2][i] = T(1) / (xy01 + z0), inverse[3][i] = T(1) / (xy11 + z0);
+                inverse[4][i] = T(1) / (xy00 + z1), inverse[5][i] = T(1) / (xy10 + z1);
+                inverse[6][i] = T(1) / (xy01 + z1), inverse[7][i] = T(1) / (xy11 + z1);
             }
             if (any_astride != 0)
                 for (int i = 0; i < n; ++i)
@@ -3565,6 +3488,8 @@ struct BoundsOfBoxes {
                 if ((block & (block - 1)) == 0) take_sides(merge(bounds, so_far.merged()), sides);
                 if (!may_extend(sides, at, taken)) continue;
             }
+            T away[bodies_at_once];
+            for (int i = 0; i < n; ++i) away[i] = taken[i] != 0 ? T(0) : so_far.none;
             for (int r = 0; r < 3; ++r) {
                 Vec4<T> const above = row(matrix, r);
                 for (int i = 0; i < n; ++i) {
@@ -3578,7 +3503,7 @@ struct BoundsOfBoxes {
                     auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
                     T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
                     T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
-                    so_far.add(r, i, taken[i], least, most);
+                    so_far.add(r, i, away[i], least, most);
                 }
             }
         }
@@ -3680,6 +3605,108 @@ template <class T>
         if (all_finite(box) && !is_empty(box)) bounds = merge(bounds, projected_bounds(m, corners(box), w_min));
     }
     return bounds;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/region.hpp ========
+//
+// A rectangle of a map, as a matrix on the left: crop to what is used, place in an atlas, compose both. Which rectangle
+// a body needs says projected_bounds.hpp, which comes with it.
+//
+// Use it after any technique: nothing here knows how the matrix was made, and neither the light's law nor the order of
+// depth is touched. Source: Kwon 2002 (thesis), 4.1, with its y scale corrected.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct Region {
+    Vec2<T> lo{T(-1)};  // NDC; the default is the whole map
+    Vec2<T> hi{T(1)};
+};
+
+// A square of texels in an atlas. Rows count from texture v = 0.
+struct Tile {
+    int x = 0;
+    int y = 0;
+    int size = 0;
+    int atlas_width = 0;
+    int atlas_height = 0;
+};
+
+// Empty as soon as one axis has no length.
+template <class T>
+[[nodiscard]] inline bool is_empty(Region<T> const& region) noexcept {
+    return !(region.lo.x < region.hi.x && region.lo.y < region.hi.y);
+}
+
+// May be empty.
+template <class T>
+[[nodiscard]] inline Region<T> intersect(Region<T> const& a, Region<T> const& b) noexcept {
+    return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
+}
+
+template <class T>
+[[nodiscard]] inline Region<T> region_of(Aabb<T> const& box_in_ndc) noexcept {
+    return {Vec2<T>(box_in_ndc.lo.x, box_in_ndc.lo.y), Vec2<T>(box_in_ndc.hi.x, box_in_ndc.hi.y)};
+}
+
+// At least `least` wide on both axes, about the same centre: what a point or a line needs before it can fill a map. One
+// texel is 2 / map_size of the whole map.
+template <class T>
+[[nodiscard]] inline Region<T> widened(Region<T> const& region, T least) noexcept {
+    Region<T> wide = region;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (region.hi[axis] - region.lo[axis] >= least) continue;
+        T const centre = region.lo[axis] / T(2) + region.hi[axis] / T(2);
+        wide.lo[axis] = centre - least / T(2);
+        wide.hi[axis] = centre + least / T(2);
+    }
+    return wide;
+}
+
+// Leaves `margin_texels` of the map free on every side, for the kernel of a filter. 2 * margin_texels < map_size.
+template <class T>
+[[nodiscard]] inline Region<T> with_margin(Region<T> const& region, int map_size, T margin_texels) noexcept {
+    Vec2<T> const border = (region.hi - region.lo) * (margin_texels / (T(map_size) - T(2) * margin_texels));
+    return {region.lo - border, region.hi + border};
+}
+
+// The region fills the map: lo lands on (-1, -1), hi on (1, 1); depth and w are left alone. A region that is empty or
+// not finite gives the identity.
+template <class T>
+[[nodiscard]] inline Mat4<T> region_matrix(Region<T> const& region) noexcept {
+    if (!all_finite(region.lo) || !all_finite(region.hi) || is_empty(region)) return Mat4<T>(T(1));
+    Vec2<T> const size = region.hi - region.lo;
+    Vec2<T> const scale = T(2) / size, offset = -(region.hi + region.lo) / size;
+    if (!all_finite(size) || !all_finite(scale) || !all_finite(offset)) return Mat4<T>(T(1));
+    return from_rows(Vec4<T>(scale.x, T(0), T(0), offset.x), Vec4<T>(T(0), scale.y, T(0), offset.y),
+                     Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
+}
+
+// bad_region for a tile without area, or not wholly inside its atlas.
+[[nodiscard]] constexpr Faults faults_of(Tile const& tile) noexcept {
+    // Compared by subtraction: x + size may overflow.
+    bool const inside = tile.size > 0 && tile.x >= 0 && tile.y >= 0 && tile.atlas_width > 0 && tile.atlas_height > 0 &&
+                        tile.x <= tile.atlas_width - tile.size && tile.y <= tile.atlas_height - tile.size;
+    return inside ? Faults{} : Faults(Fault::bad_region);
+}
+
+// The whole map lands on the tile: tile_matrix * clip_from_world is the map inside its atlas, to look receivers up
+// with. The identity where faults_of(tile) says bad_region.
+//
+// NOTE: nothing clips to the tile. Draw casters with the plain matrix and the tile as the viewport, and test
+// a receiver against the plain matrix first: a point beyond the map lands in a neighbour's tile.
+template <class T>
+[[nodiscard]] inline Mat4<T> tile_matrix(Tile const& tile, ClipSpace clip = {}) noexcept {
+    if (faults_of(tile).any()) return Mat4<T>(T(1));
+    T const width = T(tile.atlas_width), height = T(tile.atlas_height), size = T(tile.size);
+    T const up = clip.ndc_y == clip.texture_v ? T(1) : T(-1);
+    T const x = (T(2) * T(tile.x) + size) / width - T(1), y = (T(2) * T(tile.y) + size) / height - T(1);
+    return from_rows(Vec4<T>(size / width, T(0), T(0), x), Vec4<T>(T(0), size / height, T(0), up * y),
+                     Vec4<T>(T(0), T(0), T(1), T(0)), Vec4<T>(T(0), T(0), T(0), T(1)));
 }
 
 }  // namespace v0
@@ -9141,13 +9168,13 @@ template <class T>
     return moved(quad_between(sided.side), sided.middle);
 }
 
-// Each side moved out, where it stands, until the points are inside and a little more.
-template <class T>
-inline void grow(SidedQuad<T>& sided, Vec2<T> const* points, int count) noexcept {
+// Each side moved out, where it stands, until the points (their x and y) are inside and a little more.
+template <class T, class Point>
+inline void grow(SidedQuad<T>& sided, Point const* points, int count) noexcept {
     for (Vec3<T>& side : sided.side) {
         T least = T(0);
         for (int i = 0; i < count; ++i) {
-            Vec2<T> const p = points[i] - sided.middle;
+            Vec2<T> const p = Vec2<T>(points[i]) - sided.middle;
             T const inside = side.x * p.x + side.y * p.y + side.z;
             least = inside < least ? inside : least;
         }
@@ -9315,6 +9342,30 @@ private:
     T price_ = std::numeric_limits<T>::max();
 };
 
+// The octagon around more points than a piece can keep.
+template <class T>
+inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) noexcept {
+    constexpr unsigned sides = 8;
+    static_assert(sides == max_piece_points);
+    T const half = std::sqrt(T(0.5));
+    std::array<Vec2<T>, sides> const way{Vec2<T>(1, 0),  Vec2<T>(half, half),   Vec2<T>(0, 1),  Vec2<T>(-half, half),
+                                         Vec2<T>(-1, 0), Vec2<T>(-half, -half), Vec2<T>(0, -1), Vec2<T>(half, -half)};
+    std::array<T, sides> reach;
+    for (unsigned d = 0; d < sides; ++d) {
+        reach[d] = std::numeric_limits<T>::lowest();
+        for (int i = 0; i < count; ++i) {
+            T const here = way[d].x * points[i].x + way[d].y * points[i].y;
+            reach[d] = here > reach[d] ? here : reach[d];
+        }
+    }
+    // Where two neighbouring sides meet: half a right angle apart, so the determinant is its sine.
+    for (unsigned d = 0; d < sides; ++d) {
+        unsigned const e = (d + 1) % sides;
+        piece.point[d] =
+            Vec2<T>(reach[d] * way[e].y - reach[e] * way[d].y, reach[e] * way[d].x - reach[d] * way[e].x) / half;
+    }
+}
+
 // Every n-th of the pieces of the stack's parts, n as small as there is room, and in each part those that reach
 // farthest in each of the directions of fit_quad.
 template <class T, class Cover>
@@ -9328,8 +9379,11 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     work.piece_count = 0;
     auto const put = [&work](unsigned at, Vec3<T> const* points, int count) {
         SettlingPiece<T>& piece = work.piece[at];
-        piece.count = count;
-        for (int i = 0; i < count; ++i) piece.point[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
+        piece.count = count < max_piece_points ? count : max_piece_points;
+        if (count <= max_piece_points)
+            for (int i = 0; i < count; ++i) piece.point[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
+        else
+            outline(piece, points, count);
     };
     constexpr int at_rim = quad_directions * max_chosen_maps, even = max_settling_pieces - at_rim;
     Supports<T> const around = no_supports(SampleFrame<T>{});
@@ -9342,7 +9396,6 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
         for (unsigned d = 0; d < quad_directions; ++d) work.piece[rim + d].count = 0;
         int seen = 0;
         cover(part, [&](Vec3<T> const* points, int count) {
-            if (count > max_piece_points) return;
             for (unsigned d = 0; d < quad_directions; ++d) {
                 Vec2<T> const& way = around.direction[d];
                 T farthest = std::numeric_limits<T>::lowest();
@@ -9375,12 +9428,6 @@ template <class T, class Cover>
     bool sound = true;
     auto const keep = [&](Vec3<T> const* points, int count) {
         if (!sound || settled.holder(points, count) >= 0) return;
-        if (count > max_piece_points) {
-            sound = false;
-            return;
-        }
-        std::array<Vec2<T>, max_piece_points> places;
-        for (int i = 0; i < count; ++i) places[static_cast<unsigned>(i)] = Vec2<T>(points[i]);
         // Whose area grows least, of all.
         T least = std::numeric_limits<T>::max();
         unsigned best = max_chosen_maps;
@@ -9388,7 +9435,7 @@ template <class T, class Cover>
         Quad<T> best_quad;
         for (unsigned k = 0; k < static_cast<unsigned>(settled.count); ++k) {
             SidedQuad<T> grown = sided[k];
-            grow(grown, places.data(), count);
+            grow(grown, points, count);
             Quad<T> const quad = quad_of(grown);
             if (!quad.visible) continue;
             T const more = area(quad) / area(settled.quad[k]);
@@ -9422,6 +9469,8 @@ template <class T, class Cover>
 //   from a depth buffer   ── what the eye sees, tile by tile ──┐                        ┌─ quad_map ── map 0
 //                                                              ├─ parts ── fit_quad ────┼─ quad_map ── map 1
 //   from boxes alone      ── what it may see (box_samples) ────┘  (part_search)         └─ ...
+//
+// Before they are maps, the quadrilaterals move against each other once more (quad_settle.hpp).
 //
 // Every map of a sun is a homography of the light's plane: a box, a rectangle at any angle, a warp of any strength, a
 // view-dependent map. So none of these is a policy here. Each part of the picture gets the quadrilateral whose texels
@@ -9521,7 +9570,7 @@ template <class T>
 template <class T, class Bound, class Cover>
 [[nodiscard]] inline ChosenMaps<T> search_maps(LightSampler<T> const& sampler, Aabb<T> const& casters,
                                                MapLimits<T> const& limits, MapSearch<T>& work, Bound const& bound,
-                                               Cover const& cover, bool piecewise) noexcept {
+                                               Cover const& cover) noexcept {
     ChosenMaps<T> chosen;
     if (work.count == 0) return chosen;
     PartSearch<T, Bound> search{work, bound, usable_texels(limits.map_size, limits.margin_texels), priced_samples};
@@ -9541,10 +9590,8 @@ template <class T, class Bound, class Cover>
         stack = candidate;
     }
     chosen.tried = search.tried;
-    if (piecewise) {
-        stack = settled(work, stack, search.usable_texels, cover);
-        least = price_in(stack, work, search.usable_texels);
-    }
+    stack = settled(work, stack, search.usable_texels, cover);
+    least = price_in(stack, work, search.usable_texels);
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.
@@ -9711,7 +9758,7 @@ template <class T>
             });
         }
     };
-    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover, true);
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
     chosen.faults |= in.faults;
     return chosen;
 }
@@ -9762,7 +9809,7 @@ template <class T>
             for (int i = 0; i < count; ++i) add(supports, Vec2<T>(points[i]));
         });
     };
-    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover, false);
+    ChosenMaps<T> chosen = detail::search_maps(sampler, casters, limits, work, bound, cover);
     chosen.faults |= in.faults;
     return chosen;
 }
