@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/region.hpp"
+#include "tests/support/watched.hpp"
 #include "tests/support/tolerance.hpp"
 
 #include <shadowmath/region.hpp>
@@ -213,6 +214,24 @@ TEST(ProjectedBounds, OfManyBoxesAreThoseOfEachMergedWhateverTheMatrix) {
     EXPECT_TRUE(is_empty(projected_bounds(small, boxes, 2, nan)));
     EXPECT_TRUE(is_empty(projected_bounds(small, boxes, 0, 0.5f)));
     EXPECT_TRUE(is_empty(projected_bounds(small, boxes, -1, 0.5f)));
+}
+
+TEST(ProjectedBounds, OfBoxesWithCornersInTheEyesPlaneDivideNothingByZero) {
+    // Some behind the eye up to its own plane, some astride of it, some in front.
+    constexpr int count = 48;
+    float columns[6][count];
+    for (int i = 0; i < count; ++i) {
+        float const lo[3] = {-1.0f, -2.0f, i % 3 == 0 ? 0.0f : -4.0f}, hi[3] = {1.0f, 2.0f, i % 3 == 2 ? -1.0f : 0.0f};
+        for (int axis = 0; axis < 3; ++axis) columns[axis][i] = lo[axis], columns[axis + 3][i] = hi[axis];
+        if (i % 3 == 0) columns[5][i] = 3.0f;
+    }
+    BoxArrays<float> const arrays{columns[0], columns[1], columns[2], columns[3], columns[4], columns[5]};
+    glm::mat4 perspective(1.0f);
+    perspective[2][3] = -1.0f;
+    perspective[3][3] = 0.0f;
+    auto const bounds = test::watched([&] { return projected_bounds(perspective, arrays, count, 0.5f); });
+    EXPECT_TRUE(bounds.calm_in_range());
+    EXPECT_EQ(bounds.result.hi.y, 4.0f);
 }
 
 TEST(ProjectedBounds, OfThousandsLeaveOutNoBoxThatReachesFartherThanThoseBefore) {
