@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/laws/projected_bounds.hpp"
 #include "tests/laws/region.hpp"
 #include "tests/support/any_map.hpp"
 #include "tests/support/gen.hpp"
