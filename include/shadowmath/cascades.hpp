@@ -176,7 +176,8 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
-// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is mended.
+// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is
+// mended.
 template <class T>
 [[nodiscard]] inline bool fit_warps(Cascades<T>& cascades, int first, ViewVolume<T> const& seen, Light<T> const& light,
                                     Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
@@ -193,8 +194,9 @@ template <class T>
         in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
     }
     if (!in_range) return false;
-    WarpInputs<T> const in{seen, safe_normalize(light.direction).direction, faults_of(light), options.map_size,
-                           margin_texels, options.clip};
+    WarpInputs<T> const in{
+        seen,        safe_normalize(light.direction).direction, faults_of(light), options.map_size, margin_texels,
+        options.clip};
     return warp_slices(in, ranges, strengths, count, casters, receivers, maps);
 }
 

@@ -91,17 +91,15 @@ template <class T>
     return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
 }
 
-// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge is
-// none.
+// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge
+// is none.
 template <class L>
 struct CutEdges {
     Vectors<L> origin;
     HalfStep<L> const& half;
     L first, last;
 
-    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept {
-        return origin + half.step * (first + last);
-    }
+    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept { return origin + half.step * (first + last); }
     // Steps; of one that is none, less than nothing by more than anything can be long.
     [[nodiscard, gnu::always_inline]] L length() const noexcept {
         return where_at_most(first, last, last - first, L::all(typename L::Scalar(-1e37)));

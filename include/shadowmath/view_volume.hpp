@@ -154,7 +154,9 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Pose<T> orthonormalized(Pose<T> const& pose) noexcept {
     Vec3<T> const &r = pose.right, &u = pose.up, &f = pose.forward;
-    auto const is = [](T value, T wanted) { return std::abs(value - wanted) <= T(4) * std::numeric_limits<T>::epsilon(); };
+    auto const is = [](T value, T wanted) {
+        return std::abs(value - wanted) <= T(4) * std::numeric_limits<T>::epsilon();
+    };
     bool const unit = is(glm::dot(r, r), T(1)) & is(glm::dot(u, u), T(1)) & is(glm::dot(f, f), T(1));
     if (unit & is(glm::dot(r, u), T(0)) & is(glm::dot(u, f), T(0)) & is(glm::dot(f, r), T(0))) return pose;
     Normalized<T> const forward = safe_normalize(pose.forward);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What projected_bounds.hpp promises: bounds of a body lose no point in front, and those of many are their bounds merged.
+// What projected_bounds.hpp promises: bounds of a body lose no point in front, and those of many are their bounds
+// merged.
 #pragma once
 
 #include "tests/laws/shadow_map.hpp"

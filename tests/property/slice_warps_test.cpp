@@ -43,8 +43,8 @@ TYPED_TEST(SliceWarpsProperty, ServeWhatEachSliceSeesAndTheCastersBetweenItAndTh
             RC_ASSERT(maps[i].visible);
             // Where depth is a hundred thousand times what w grows over, -1..1 leaves none of it in a float: the twin's
             // neither.
-            ShadowMap<T> const twin = simple_perspective_map(slice(scene.view, range), light, casters, scene.receivers,
-                                                             options, scene.clip);
+            ShadowMap<T> const twin =
+                simple_perspective_map(slice(scene.view, range), light, casters, scene.receivers, options, scene.clip);
             RC_ASSERT(laws::is_map_of(maps[i].clip_from_world, light, scene.clip) ||
                       !laws::is_map_of(twin.clip_from_world, light, scene.clip));
             RC_ASSERT(laws::serves(maps[i], scene.point, margin));

@@ -13,9 +13,9 @@ namespace {
 template <class T>
 struct SliceWarps : ::testing::Test {
     Light<T> const sun = directional(Vec3<T>(T(0.4), T(-0.8), T(0.3)));
-    ViewVolume<T> view = perspective_view(pose_looking(Vec3<T>(T(3), T(2), T(10)), Vec3<T>(T(0.3), T(-0.1), T(-1)),
-                                                       Vec3<T>(T(0), T(1), T(0))),
-                                          T(1), T(1.6), T(0.1), T(200));
+    ViewVolume<T> view = perspective_view(
+        pose_looking(Vec3<T>(T(3), T(2), T(10)), Vec3<T>(T(0.3), T(-0.1), T(-1)), Vec3<T>(T(0), T(1), T(0))), T(1),
+        T(1.6), T(0.1), T(200));
     Aabb<T> const town{Vec3<T>(T(-120), T(0), T(-120)), Vec3<T>(T(120), T(30), T(120))};
     Splits<T> const splits = practical_splits(T(0.1), T(200), 6);
     WarpOptions<T> options;
@@ -54,8 +54,8 @@ TYPED_TEST(SliceWarps, AreTheirTwinsInEveryConvention) {
             EXPECT_EQ(made.result, 0x3fu);
             for (int i = 0; i < 6; ++i) {
                 ShadowMap<T> const twin = this->twin(i, this->sun, clip);
-                // Planes are 16 epsilon of 800 m farther out and bounds as much again, of a first slice that begins 0.1 m
-                // from the eye.
+                // Planes are 16 epsilon of 800 m farther out and bounds as much again, of a first slice that begins
+                // 0.1 m from the eye.
                 EXPECT_LT(apart(this->maps[i].clip_from_world, twin.clip_from_world),
                           T(2 * 16 * 800 / 0.1) * std::numeric_limits<T>::epsilon())
                     << i;
@@ -123,8 +123,7 @@ TYPED_TEST(SliceWarps, AreMadeOneByOneWhereLanesHaveNoRuleForThem) {
         for (int i = 0; i < 6; ++i) EXPECT_EQ(this->maps[i].clip_from_world, this->twin(i, this->sun).clip_from_world);
     }
     this->options.rule = WarpRule::by_strength;
-    Light<T> const lamp =
-        spot(Vec3<T>(T(0), T(40), T(-20)), Vec3<T>(T(0), T(-1), T(0.1)), T(0.8), T(100));
+    Light<T> const lamp = spot(Vec3<T>(T(0), T(40), T(-20)), Vec3<T>(T(0), T(-1), T(0.1)), T(0.8), T(100));
     unsigned const visible = fit_slice_warps(this->view, lamp, this->splits, T(0.1), this->town, this->town,
                                              this->options, gl_clip, this->maps);
     EXPECT_NE(visible, 0u);
@@ -146,20 +145,24 @@ TYPED_TEST(SliceWarps, NameWhatIsWrong) {
     this->options.strength = T(1);
     Splits<T> none;
     none.count = 0;
-    EXPECT_EQ(fit_slice_warps(this->view, this->sun, none, T(0), this->town, this->town, this->options, gl_clip,
-                              this->maps), 0u);
+    EXPECT_EQ(
+        fit_slice_warps(this->view, this->sun, none, T(0), this->town, this->town, this->options, gl_clip, this->maps),
+        0u);
     // A blend that is no number is none.
     EXPECT_EQ(fit_slice_warps(this->view, this->sun, this->splits, nan, this->town, this->town, this->options, gl_clip,
-                              this->maps), 0x3fu);
+                              this->maps),
+              0x3fu);
     Splits<T> endless = this->splits;
     endless.plane[6] = std::numeric_limits<T>::infinity();
     EXPECT_EQ(fit_slice_warps(this->view, this->sun, endless, T(0), this->town, this->town, this->options, gl_clip,
-                              this->maps), 0u);
+                              this->maps),
+              0u);
     EXPECT_TRUE(this->maps[0].faults.has(Fault::not_finite));
     this->view.pose.position.x = T(1e7);
     Aabb<T> const there{this->town.lo + Vec3<T>(T(1e7), T(0), T(0)), this->town.hi + Vec3<T>(T(1e7), T(0), T(0))};
-    EXPECT_NE(fit_slice_warps(this->view, this->sun, this->splits, T(0), there, there, this->options, gl_clip,
-                              this->maps), 0u);
+    EXPECT_NE(
+        fit_slice_warps(this->view, this->sun, this->splits, T(0), there, there, this->options, gl_clip, this->maps),
+        0u);
     EXPECT_EQ(this->maps[0].faults.has(Fault::precision_lost), sizeof(T) == 4);
 }
 
