@@ -50,7 +50,9 @@ TYPED_TEST(SliceWarps, AreTheirTwinsInEveryConvention) {
         for (ClipSpace const clip : {gl_clip, vulkan_clip, d3d_clip, reversed(d3d_clip), reversed(vulkan_clip)}) {
             this->options.strength = strength;
             auto const made = test::watched([&] { return this->fitted(this->town, clip); });
-            EXPECT_TRUE(made.calm_in_range());
+            // NOTE: clang divides by what it has left of a lane that nobody reads (CONTRIBUTING.md).
+            EXPECT_EQ(made.allocations, 0u);
+            EXPECT_EQ(made.raised & (FE_INVALID | FE_OVERFLOW), 0);
             EXPECT_EQ(made.result, 0x3fu);
             for (int i = 0; i < 6; ++i) {
                 ShadowMap<T> const twin = this->twin(i, this->sun, clip);
