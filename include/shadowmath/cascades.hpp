@@ -176,7 +176,8 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
-// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is mended.
+// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is
+// mended.
 template <class T>
 [[nodiscard]] inline bool fit_warps(Cascades<T>& cascades, int first, ViewVolume<T> const& seen, Light<T> const& light,
                                     Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,

@@ -132,8 +132,6 @@ struct BoundsOfBoxes {
     Aabb<T>& bounds;
 
     static constexpr int n = bodies_at_once;
-    // More than any w of a box in reach, with a reciprocal that is a number.
-    static constexpr T beyond_all = T(8e37);
 
     // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
     enum class Kind { all_full, some_empty, beyond_reach };
@@ -269,12 +267,12 @@ struct BoundsOfBoxes {
                 taken[i] &= in_front;
                 any_astride |= astride[i];
                 T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
-                // A corner that does not count may be at w = 0 itself: it is moved where it divides nothing to infinity.
-                T const z0 = in_front != 0 ? w.z0 : beyond_all, z1 = in_front != 0 ? w.z1 : beyond_all;
-                inverse[0][i] = T(1) / (xy00 + z0), inverse[1][i] = T(1) / (xy10 + z0);
-                inverse[2][i] = T(1) / (xy01 + z0), inverse[3][i] = T(1) / (xy11 + z0);
-                inverse[4][i] = T(1) / (xy00 + z1), inverse[5][i] = T(1) / (xy10 + z1);
-                inverse[6][i] = T(1) / (xy01 + z1), inverse[7][i] = T(1) / (xy11 + z1);
+                // Corners that do not count may be at w = 0 itself; of those that do this changes none.
+                auto const over = [this](T corner_w) { return T(1) / (corner_w > w_min ? corner_w : w_min); };
+                inverse[0][i] = over(xy00 + w.z0), inverse[1][i] = over(xy10 + w.z0);
+                inverse[2][i] = over(xy01 + w.z0), inverse[3][i] = over(xy11 + w.z0);
+                inverse[4][i] = over(xy00 + w.z1), inverse[5][i] = over(xy10 + w.z1);
+                inverse[6][i] = over(xy01 + w.z1), inverse[7][i] = over(xy11 + w.z1);
             }
             if (any_astride != 0)
                 for (int i = 0; i < n; ++i)

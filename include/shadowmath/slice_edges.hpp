@@ -91,8 +91,8 @@ template <class T>
     return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
 }
 
-// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge is
-// none.
+// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge
+// is none.
 template <class L>
 struct CutEdges {
     Vectors<L> origin;

@@ -154,11 +154,12 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Pose<T> orthonormalized(Pose<T> const& pose) noexcept {
     Vec3<T> const &r = pose.right, &u = pose.up, &f = pose.forward;
-    auto const is = [](T value, T wanted) {
-        return std::abs(value - wanted) <= T(4) * std::numeric_limits<T>::epsilon();
+    auto const off = [](T value, T wanted) {
+        return std::abs(value - wanted) <= T(4) * std::numeric_limits<T>::epsilon() ? 0 : 1;
     };
-    bool const unit = is(glm::dot(r, r), T(1)) & is(glm::dot(u, u), T(1)) & is(glm::dot(f, f), T(1));
-    if (unit & is(glm::dot(r, u), T(0)) & is(glm::dot(u, f), T(0)) & is(glm::dot(f, r), T(0))) return pose;
+    int const how_many = (off(glm::dot(r, r), T(1)) + off(glm::dot(u, u), T(1)) + off(glm::dot(f, f), T(1))) +
+                         (off(glm::dot(r, u), T(0)) + off(glm::dot(u, f), T(0)) + off(glm::dot(f, r), T(0)));
+    if (how_many == 0) return pose;
     Normalized<T> const forward = safe_normalize(pose.forward);
     Normalized<T> const right =
         safe_normalize(pose.right - forward.direction * glm::dot(forward.direction, pose.right));

@@ -17,6 +17,7 @@ ViewVolume<float> view;
 LightBasis<float> basis;
 Aabb<float> const scene{glm::vec3(-60, 0, -80), glm::vec3(70, 25, 60)};
 Mat4<float> maps[4 * 320];
+ShadowMap<float> warped[4];
 std::vector<ViewVolume<float>> views;
 bench::Boxes boxes;
 std::vector<MapMask> masks(640);
@@ -49,6 +50,11 @@ SHADOWMATH_COUNTED(count_slice_spheres) {
 SHADOWMATH_COUNTED(count_slice_focus) {
     Splits<float> const splits = practical_splits(view.z_near, view.z_far, 4);
     keep(fit_slice_focus(view, light_basis(bench::sun), splits, scene, 2.0f / 2048, gl_zero_to_one_clip, maps));
+}
+SHADOWMATH_COUNTED(count_slice_warps) {
+    Splits<float> const splits = practical_splits(view.z_near, view.z_far, 4);
+    keep(fit_slice_warps(view, directional(bench::sun), splits, 0.1f, scene, scene, WarpOptions<float>{}, gl_clip,
+                         warped));
 }
 SHADOWMATH_COUNTED(count_boxes_of_320_views) {
     keep(fit_slice_boxes_of(views.data(), 320, basis, 4, 0.5f, 0.0f, gl_zero_to_one_clip, maps));
@@ -85,6 +91,7 @@ int main() {
     count_slice_boxes();
     count_slice_spheres();
     count_slice_focus();
+    count_slice_warps();
     count_boxes_of_320_views();
     count_masks_of_640_boxes();
     count_perspective_region_of_640_boxes();

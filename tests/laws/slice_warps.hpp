@@ -35,9 +35,9 @@ template <class T>
                                   box(receivers), exact, clip);
 }
 
-// A body whose ends are moved by d metres and that is s metres long is moved by d / s of it. The warp follows: y by d / a,
-// and 1 / a by d / z_near of itself; a is no less than z_near / sine, and 4 of each are allowed. d is what `metres`
-// between the planes make of the ends: more where planes meet at a small angle.
+// A body whose ends are moved by d metres and that is s metres long is moved by d / s of it. The warp follows: y by
+// d / a, and 1 / a by d / z_near of itself; a is no less than z_near / sine, and 4 of each are allowed. d is what
+// `metres` between the planes make of the ends: more where planes meet at a small angle.
 template <class T>
 [[nodiscard]] Apart apart(ShadowMap<T> const& ours, ShadowMap<long double> const& twin, ViewVolume<T> const& part,
                           Light<T> const& light, Aabb<T> const& receivers, long double metres) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/region.hpp"
+#include "tests/laws/projected_bounds.hpp"
 #include "tests/support/any_map.hpp"
 #include "tests/support/gen.hpp"
 #include "tests/support/watched.hpp"

@@ -2,7 +2,7 @@
 //
 // What can be wrong with everything but the camera and the light (boxes, planes, counts, sizes, options), and what is
 // promised for it: one test for each kind, over every technique that it reaches.
-#include "tests/laws/region.hpp"
+#include "tests/laws/projected_bounds.hpp"
 #include "tests/laws/trace.hpp"
 #include "tests/support/every_map.hpp"
 

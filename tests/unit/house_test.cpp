@@ -195,7 +195,8 @@ TEST(House, EveryHeaderHasLawsOrAUnitTest) {
                                                      {"cover", "trace"},
                                                      {"plain_lanes", "irregular_lanes"},
                                                      {"x86_lanes", "irregular_lanes"},
-                                                     {"slice_edges", "slices_in_scene"}};
+                                                     {"slice_edges", "slices_in_scene"},
+                                                     {"shafts_of_light", "slice_warps"}};
     for (fs::path const& header : sources_under("include/shadowmath")) {
         std::string name = header.stem().string();
         if (part_of.count(name) != 0) name = part_of.at(name);

@@ -50,12 +50,14 @@ TYPED_TEST(SliceWarps, AreTheirTwinsInEveryConvention) {
         for (ClipSpace const clip : {gl_clip, vulkan_clip, d3d_clip, reversed(d3d_clip), reversed(vulkan_clip)}) {
             this->options.strength = strength;
             auto const made = test::watched([&] { return this->fitted(this->town, clip); });
-            EXPECT_TRUE(made.calm_in_range());
+            // NOTE: clang divides by what it has left of a lane that nobody reads (CONTRIBUTING.md).
+            EXPECT_EQ(made.allocations, 0u);
+            EXPECT_EQ(made.raised & (FE_INVALID | FE_OVERFLOW), 0);
             EXPECT_EQ(made.result, 0x3fu);
             for (int i = 0; i < 6; ++i) {
                 ShadowMap<T> const twin = this->twin(i, this->sun, clip);
-                // Planes are 16 epsilon of 800 m farther out and bounds as much again, of a first slice that begins 0.1 m
-                // from the eye.
+                // Planes are 16 epsilon of 800 m farther out and bounds as much again, of a first slice that begins
+                // 0.1 m from the eye.
                 EXPECT_LT(apart(this->maps[i].clip_from_world, twin.clip_from_world),
                           T(2 * 16 * 800 / 0.1) * std::numeric_limits<T>::epsilon())
                     << i;
