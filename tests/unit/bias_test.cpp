@@ -358,3 +358,15 @@ TEST(Slope, KnowsAMapOfOneTexel) {
     EXPECT_NEAR(slope(overhead.map, 1, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0).x, -0.5 * 10 / 40,
                 1e-14);
 }
+
+TEST(BiasFor, OptionsThatAreNoNumbersCountAsNone) {
+    Overhead const overhead;
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    BiasOptions<double> options = nothing();
+    MapBias<double> const none = bias_for(overhead.map, overhead.light, 100, options);
+    options.depth_step = options.metres = options.flat_texels = options.texels = nan;
+    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
+    EXPECT_EQ(bias.constant, none.constant);
+    EXPECT_EQ(bias.slope_texels, none.slope_texels);
+    EXPECT_EQ(bias_at(overhead.map, overhead.light, 100, options, Vec3<double>(0)).constant, none.constant);
+}
