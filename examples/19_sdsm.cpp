@@ -6,6 +6,7 @@
 #include "examples/support/example.hpp"
 #include "examples/support/raster.hpp"
 
+#include <shadowmath/sampling.hpp>
 #include <shadowmath/sdsm.hpp>
 
 namespace sm = shadowmath;
@@ -33,36 +34,30 @@ int main(int argc, char** argv) {
 
     bool inside = true;
     for (auto const& pixel : seen)
-        for (int c = 0; c < fitted.count; ++c) {
-            if (!sm::is_served(fitted.at[c].range, pixel.eye_depth)) continue;
-            glm::vec4 const at = fitted.at[c].map.clip_from_world * glm::vec4(pixel.point, 1.0f);
-            float const side = 1.0f - 2.0f * options.margin_texels / float(options.map_size) + 1e-4f;
-            inside = inside && std::abs(at.x) <= side && std::abs(at.y) <= side;
-        }
+        for (auto const& c : fitted)
+            inside = inside && (!sm::is_served(c.range, pixel.eye_depth) ||
+                                sm::contains(c.map, options.map_size, options.margin_texels - 0.05f, pixel.point));
     proof.that(inside, "Every sample is inside its map, margin included.");
 
     sm::LightBasis<float> const basis = sm::light_basis(sun.direction);
     auto const in_light = [&](glm::vec3 p) { return glm::dvec2(glm::dot(basis.x, p), glm::dot(basis.y, p)); };
     sm::example::Drawing drawing("Seen from the light: samples, fitted maps, stable maps", {-75, -50}, {95, 65}, 720);
-    for (std::size_t i = 0; i < seen.size(); i += 151) {
-        if (!(seen[i].eye_depth > 0.0f)) continue;
-        int map = 0;
-        while (map + 1 < fitted.count && seen[i].eye_depth >= fitted.at[map].range.end) ++map;
-        drawing.dot(in_light(seen[i].point), "d" + std::to_string(map), 1.0);
-    }
-    for (int c = 0; c < fitted.count; ++c)
+    for (std::size_t i = 0; i < seen.size(); i += 151)
+        for (int c = 0; c < fitted.count; ++c)
+            if (sm::is_served(fitted.at[c].range, seen[i].eye_depth))
+                drawing.dot(in_light(seen[i].point), "d" + std::to_string(c), 1.0);
+    bool smaller = true;
+    for (int c = 0; c < fitted.count; ++c) {
         for (auto const* maps : {&fitted, &stable}) {
             std::vector<glm::dvec2> sides;
             for (glm::vec3 const& p : sm::example::corners_at(maps->at[c].map, 0.5f)) sides.push_back(in_light(p));
             drawing.area(sides, maps == &fitted ? "s" + std::to_string(c) : "dash");
         }
-    drawing.write(proof.folder() / "sdsm.svg");
-    bool smaller = true;
-    for (int c = 0; c < fitted.count; ++c) {
         std::printf("map %d: texels of %.1f cm, stable %.1f cm\n", c, 100 * fitted.at[c].texel_metres,
                     100 * stable.at[c].texel_metres);
         smaller = smaller && fitted.at[c].texel_metres < stable.at[c].texel_metres;
     }
+    drawing.write(proof.folder() / "sdsm.svg");
     proof.that(smaller, "Each map has smaller texels than the stable one.");
     return proof.result();
 }

@@ -20,13 +20,12 @@ int main(int argc, char** argv) {
     for (auto const& seen : sm::example::surfaces_of(view, 64, 36, village.triangles))
         if (seen.eye_depth > 0.0f && glm::dot(seen.normal, sun.direction) < -0.05f)
             samples.push_back({seen.point, seen.normal});
+    int const sample_count = int(samples.size());
 
-    sm::CascadeOptions<float> options;
-    sm::ChoiceLimits<float> limits;
-    limits.texels = 4 * 1024 * 1024;
-    limits.goal = sm::Goal::least_mean;
-    sm::Choice<float> const choice =
-        sm::choose(view, sun, village.casters, village.receivers, samples.data(), int(samples.size()), options, limits);
+    sm::CascadeOptions<float> const options;
+    sm::ChoiceLimits<float> const limits{.texels = 4 * 1024 * 1024, .goal = sm::Goal::least_mean};
+    auto const choice =
+        sm::choose(view, sun, village.casters, village.receivers, samples.data(), sample_count, options, limits);
     std::printf("chosen: %d maps of %d texels, lambda %.2f: %.2f eye pixels a texel in the mean, after %d tries\n",
                 choice.options.count, choice.options.map_size, choice.options.lambda, choice.judgement.all.mean,
                 choice.tried);
@@ -39,22 +38,21 @@ int main(int argc, char** argv) {
     }
     bool best = true;
     for (int count = 1; count <= 4; ++count) {
+        sm::CascadeOptions<float> tried = options;
+        tried.count = count;
+        tried.map_size = sm::map_size_within(limits.texels, count, limits.largest_map);
         std::vector<glm::dvec2> curve;
         for (int step = 0; step <= 20; ++step) {
-            sm::CascadeOptions<float> tried = options;
-            tried.count = count;
-            tried.map_size = sm::map_size_within(limits.texels, count, limits.largest_map);
             tried.lambda = float(step) / 20.0f;
             auto const cascades = sm::fit_cascades(view, sun, village.casters, village.receivers, tried);
             float const mean =
-                sm::judge(cascades, tried.map_size, view, limits.eye_pixels, samples.data(), int(samples.size()))
-                    .all.mean;
+                sm::judge(cascades, tried.map_size, view, limits.eye_pixels, samples.data(), sample_count).all.mean;
             best = best && choice.judgement.all.mean <= mean * 1.02f;
             curve.emplace_back(tried.lambda, std::log2(mean));
         }
         drawing.path(curve, "s" + std::to_string(count - 1));
-        drawing.label(curve.back(), std::to_string(count) + (count == 1 ? " map" : " maps"), "start",
-                      {6, count == 3 ? 12 : 2});
+        auto const name = std::to_string(count) + (count == 1 ? " map" : " maps");
+        drawing.label(curve.back(), name, "start", {6, count == 3 ? 12 : 2});
     }
     for (int octave = 0; octave <= 4; ++octave)
         drawing.label({-0.01, octave}, std::to_string(1 << octave), "end", {0, 4}, "small");

@@ -20,10 +20,7 @@ int main(int argc, char** argv) {
     auto const view = sm::example::village_view(40.0f);
     auto const sun = sm::directional(sm::example::afternoon_sun);
     constexpr int width = 480, height = 270;
-    sm::CascadeOptions<float> options;
-    options.count = 1;
-    options.map_size = 512;
-    options.clip = sm::gl_zero_to_one_clip;
+    sm::CascadeOptions<float> const options{.count = 1, .map_size = 512, .clip = sm::gl_zero_to_one_clip};
     sm::ShadowMap<float> const map = sm::fit_cascades(view, sun, village.casters, village.receivers, options).at[0].map;
 
     // What the eye sees, and what casts, as they lie in memory.
@@ -31,8 +28,7 @@ int main(int argc, char** argv) {
     constexpr int stride = sizeof(sm::example::Surface) / sizeof(float);
     sm::Receivers<float> const receivers{&seen[0].point.x, stride, nullptr, &seen[0].normal.x, stride};
     std::vector<glm::vec3> vertices;
-    for (auto const& triangle : village.triangles)
-        vertices.insert(vertices.end(), triangle.at.begin(), triangle.at.end());
+    for (auto const& t : village.triangles) vertices.insert(vertices.end(), t.at.begin(), t.at.end());
     auto const vertex_count = std::uint32_t(vertices.size());
     sm::Casters<float> const casters{&vertices[0].x, 3, vertex_count, nullptr, vertex_count / 3};
 
@@ -47,22 +43,20 @@ int main(int argc, char** argv) {
 
     auto const drawn = sm::example::draw_depths(map, options.map_size, village.triangles);
     auto const bias = sm::bias_for(map, sun, options.map_size, sm::BiasOptions<float>{});
-    sm::example::Picture pictures[2] = {sm::example::Picture({width, height}), sm::example::Picture({width, height})};
+    sm::example::Picture by_map({width, height}), exactly({width, height});
     int partly = 0, apart = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) {
         float const exact = 1.0f - float(std::popcount(masks[i])) / 32.0f;
-        float const by_map =
-            sm::visibility(map, options.map_size, seen[i].point, seen[i].normal, bias, {1, true}, drawn);
+        float const lit = sm::visibility(map, options.map_size, seen[i].point, seen[i].normal, bias, {1, true}, drawn);
         partly += exact > 0.0f && exact < 1.0f;
-        apart += std::abs(exact - by_map) > 0.5f;
-        for (int k = 0; k < 2; ++k)
-            pictures[k].pixels[i] = sm::example::encoded(
-                seen[i].eye_depth > 0.0f ? sm::example::sunlit(seen[i], sun.direction, k == 0 ? by_map : exact)
-                                         : glm::vec3(0.4f, 0.55f, 0.75f));
+        apart += std::abs(exact - lit) > 0.5f;
+        by_map.pixels[i] = sm::example::encoded(sm::example::sunlit(seen[i], sun.direction, lit));
+        exactly.pixels[i] = sm::example::encoded(sm::example::sunlit(seen[i], sun.direction, exact));
     }
     std::printf("%d pixels lie on a shadow's edge; the map decides %d pixels otherwise\n", partly, apart);
     proof.that(partly > 100 && apart < int(seen.size()) / 20, "The map and the exact answer agree but along edges.");
-    for (auto& picture : pictures) picture = sm::example::enlarged(picture, 230, 30, 119, 100, 3);
+    sm::example::Picture const pictures[] = {sm::example::enlarged(by_map, 230, 30, 119, 100, 3),
+                                             sm::example::enlarged(exactly, 230, 30, 119, 100, 3)};
     sm::example::write_png(proof.folder() / "irregular.png", sm::example::beside(pictures));
     return proof.result();
 }

@@ -3,10 +3,10 @@
 
 #include "backends/constants.hpp"
 #include "backends/gl/compute.hpp"
-#include "backends/gl/context.hpp"
-#include "backends/gl/listen.hpp"
 #include "backends/gl/objects.hpp"
+#include "backends/gl/session.hpp"
 #include "backends/gl/statistics.hpp"
+#include "backends/gl/targets.hpp"
 #include "backends/pass_check.hpp"
 #include "backends/shaders/embedded.hpp"
 
@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace shadowmath::backend {
 namespace {
@@ -46,23 +45,16 @@ struct Resources {
     Program depth, depth_clones, depth_instances, receive;  // depth_instances: 0 where the driver has no such shaders
     std::optional<Statistics> statistics;
 
-    Texture maps;  // an array, one layer a map
-    Framebuffer map_target;
-    Texture colour, position, normal, frame_depth;  // the last frame
-    Framebuffer frame_target;
-
-    Texture eye_depth;  // what the last fit looked at: an array of one layer
-    Framebuffer eye_target;
+    Maps maps;
+    FrameTargets frame;  // the last one
+    EyeDepth eye;        // what the last fit looked at
     std::optional<Storage> fit_state, fitted_maps;
 };
 
 class GlBackend final : public Backend {
 public:
-    GlBackend(std::unique_ptr<Context> context, GlShaders shaders) : context_(std::move(context)) {
-        Current const current(*context_);
-        gl_.emplace([this](char const* name) { return context_->proc(name); });
-        if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
-        listen(*gl_, messages_);
+    GlBackend(GlContextKind kind, GlShaders shaders) : session_(kind, shaders), gl_(&session_.procs()) {
+        Current const current = session_.current();
         resources_.emplace(*gl_);
         describe_vertices();
         prepare_maps(1, 1);  // the receiver's sampler always has a texture
@@ -74,19 +66,11 @@ public:
     }
 
     ~GlBackend() override {
-        context_->make_current();
+        Current const current = session_.current();
         resources_.reset();
-        context_->release();
     }
 
-    BackendInfo info() const override {
-        Current const current(*context_);
-        auto const text = [this](GLenum what) {
-            return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
-        };
-        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION),
-                takes_spirv(*gl_, shaders::depth_vert) ? "SPIR-V" : "GLSL"};
-    }
+    BackendInfo info() const override { return session_.info(takes_spirv(*gl_, shaders::depth_vert)); }
 
     std::vector<DrawWay> ways() const override {
         std::vector<DrawWay> ways{DrawWay::pass_per_map, DrawWay::geometry_clones};
@@ -96,7 +80,7 @@ public:
 
     void upload(Scene const& scene) override {
         demand_none(fault_of(scene));
-        Current const current(*context_);
+        Current const current = session_.current();
         auto const fill = [this](GLuint buffer, auto const& items) {
             gl_->NamedBufferData(buffer, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])), items.data(),
                                  GL_STATIC_DRAW);
@@ -110,7 +94,7 @@ public:
         demand_none(fault_of(pass, objects_.size()));
         demand_none(fault_of(pass.way, ways()));
         demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_maps(pass.map_size, static_cast<int>(pass.layers.size()));
 
         std::vector<DrawGroup> const groups = plan_draws(pass, objects_);
@@ -124,9 +108,9 @@ public:
     }
 
     DrawWork draw_scene(ScenePass const& pass) override {
-        demand_none(fault_of(pass, layers_));
+        demand_none(fault_of(pass, resources_->maps.layers));
         demand_none(fault_of_fitted(pass.fitted, resources_->fitted_maps.has_value()));
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_frame(pass.extent);
 
         std::vector<ViewDraw> const views = plan_view(pass, objects_);
@@ -145,7 +129,7 @@ public:
         demand_none(fault_of(pass, view, objects_.size()));
         DepthPass maps = pass;
         maps.way = DrawWay::pass_per_map;
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_maps(maps.map_size, 1);
         prepare_frame(view.extent);
 
@@ -168,7 +152,7 @@ public:
 
     DrawWork fit_maps(FitPass const& pass) override {
         demand_none(fault_of(pass));
-        Current const current(*context_);
+        Current const current = session_.current();
         prepare_fit(pass);
 
         ViewDraw eye;
@@ -179,7 +163,7 @@ public:
         return timed(work_of(std::span(&eye, 1)), [&] {
             write_constants(constants);
             draw_eye_depth(pass.extent, eye.draws);
-            gl_->BindTextureUnit(3, resources_->eye_depth);
+            gl_->BindTextureUnit(3, resources_->eye.texture);
             for (ComputeStep const& step : pass.steps)
                 resources_->compute.run(
                     {step.shader, step.groups, {*resources_->fit_state, *resources_->fitted_maps}, {}, pass.constants});
@@ -187,46 +171,49 @@ public:
     }
 
     Image<float> read_depth(int layer) override {
-        if (layer < 0 || layer >= layers_)
-            throw std::runtime_error("read_depth: layer " + std::to_string(layer) + " of " + std::to_string(layers_));
-        Current const current(*context_);
-        Image<float> image(Extent{map_size_, map_size_});
-        gl_->GetTextureSubImage(resources_->maps, 0, 0, 0, layer, map_size_, map_size_, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+        Maps const& maps = resources_->maps;
+        if (layer < 0 || layer >= maps.layers)
+            throw std::runtime_error("read_depth: layer " + std::to_string(layer) + " of " +
+                                     std::to_string(maps.layers));
+        Current const current = session_.current();
+        Image<float> image(Extent{maps.size, maps.size});
+        gl_->GetTextureSubImage(maps.texture, 0, 0, 0, layer, maps.size, maps.size, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
                                 byte_count(image), image.pixels.data());
         return image;
     }
 
     Frame read_frame() override {
-        Current const current(*context_);
-        Frame frame{Image<Rgba8>(extent_), Image<Texel4>(extent_), Image<Texel4>(extent_)};
+        Current const current = session_.current();
+        FrameTargets const& drawn = resources_->frame;
+        Frame frame{Image<Rgba8>(drawn.extent), Image<Texel4>(drawn.extent), Image<Texel4>(drawn.extent)};
         if (frame.colour.pixels.empty()) return frame;
         auto const read = [this](GLuint texture, GLenum type, auto& image) {
             gl_->GetTextureImage(texture, 0, GL_RGBA, type, byte_count(image), image.pixels.data());
         };
-        read(resources_->colour, GL_UNSIGNED_BYTE, frame.colour);
-        read(resources_->position, GL_FLOAT, frame.position);
-        read(resources_->normal, GL_FLOAT, frame.normal);
+        read(drawn.colour, GL_UNSIGNED_BYTE, frame.colour);
+        read(drawn.position, GL_FLOAT, frame.position);
+        read(drawn.normal, GL_FLOAT, frame.normal);
         return frame;
     }
 
     Image<float> read_eye_depth() override {
-        Current const current(*context_);
-        Image<float> image(fit_extent_);
+        Current const current = session_.current();
+        Image<float> image(resources_->eye.extent);
         if (!image.pixels.empty())
-            gl_->GetTextureImage(resources_->eye_depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, byte_count(image),
+            gl_->GetTextureImage(resources_->eye.texture, 0, GL_DEPTH_COMPONENT, GL_FLOAT, byte_count(image),
                                  image.pixels.data());
         return image;
     }
 
     std::vector<MapConstants> read_fit() override {
         demand_none(fault_of_fitted(true, resources_->fitted_maps.has_value()));
-        Current const current(*context_);
+        Current const current = session_.current();
         std::vector<MapConstants> maps(max_maps);
         resources_->compute.read(*resources_->fitted_maps, std::as_writable_bytes(std::span(maps)));
         return maps;
     }
 
-    std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
+    std::vector<std::string> take_messages() override { return session_.take_messages(); }
 
 private:
     template <class Pixel>
@@ -256,51 +243,24 @@ private:
     }
 
     void prepare_maps(int size, int layers) {
-        if (size == map_size_ && layers == layers_) return;
-        map_size_ = layers_ = 0;  // until the new ones are there
-        resources_->maps = make_texture(*gl_, GL_TEXTURE_2D_ARRAY);
-        gl_->TextureStorage3D(resources_->maps, 1, GL_DEPTH_COMPONENT32F, size, size, layers);
-        gl_->TextureParameteri(resources_->maps, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl_->TextureParameteri(resources_->maps, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        resources_->map_target = make_framebuffer(*gl_);
-        gl_->NamedFramebufferTextureLayer(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0, 0);
-        demand_complete(resources_->map_target, std::to_string(layers) + " shadow maps of " + std::to_string(size));
-        map_size_ = size;
-        layers_ = layers;
+        Maps& maps = resources_->maps;
+        if (size == maps.size && layers == maps.layers) return;
+        maps = {};  // the old ones need not find room beside the new
+        maps = make_maps(*gl_, size, layers);
     }
 
     void prepare_frame(Extent extent) {
-        if (extent.width == extent_.width && extent.height == extent_.height) return;
-        extent_ = {};
-        resources_->frame_target = make_framebuffer(*gl_);
-        auto const attach = [&](Texture& texture, GLenum format, GLenum attachment) {
-            texture = make_texture(*gl_, GL_TEXTURE_2D);
-            gl_->TextureStorage2D(texture, 1, format, extent.width, extent.height);
-            gl_->NamedFramebufferTexture(resources_->frame_target, attachment, texture, 0);
-        };
-        attach(resources_->colour, GL_SRGB8_ALPHA8, GL_COLOR_ATTACHMENT0);
-        attach(resources_->position, GL_RGBA32F, GL_COLOR_ATTACHMENT1);
-        attach(resources_->normal, GL_RGBA32F, GL_COLOR_ATTACHMENT2);
-        attach(resources_->frame_depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
-        constexpr std::array<GLenum, 3> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
-        gl_->NamedFramebufferDrawBuffers(resources_->frame_target, 3, outputs.data());
-        demand_complete(resources_->frame_target,
-                        "a frame of " + std::to_string(extent.width) + " x " + std::to_string(extent.height));
-        extent_ = extent;
+        FrameTargets& frame = resources_->frame;
+        if (extent.width == frame.extent.width && extent.height == frame.extent.height) return;
+        frame = {};
+        frame = make_frame(*gl_, extent);
     }
 
     void prepare_fit(FitPass const& pass) {
-        if (pass.extent.width != fit_extent_.width || pass.extent.height != fit_extent_.height) {
-            fit_extent_ = {};
-            resources_->eye_depth = make_texture(*gl_, GL_TEXTURE_2D_ARRAY);
-            gl_->TextureStorage3D(resources_->eye_depth, 1, GL_DEPTH_COMPONENT32F, pass.extent.width,
-                                  pass.extent.height, 1);
-            gl_->TextureParameteri(resources_->eye_depth, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-            gl_->TextureParameteri(resources_->eye_depth, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-            resources_->eye_target = make_framebuffer(*gl_);
-            gl_->NamedFramebufferTextureLayer(resources_->eye_target, GL_DEPTH_ATTACHMENT, resources_->eye_depth, 0, 0);
-            demand_complete(resources_->eye_target, "the depth that the eye sees");
-            fit_extent_ = pass.extent;
+        EyeDepth& eye = resources_->eye;
+        if (pass.extent.width != eye.extent.width || pass.extent.height != eye.extent.height) {
+            eye = {};
+            eye = make_eye_depth(*gl_, pass.extent);
         }
         if (!resources_->fit_state || state_bytes_ != pass.state_bytes)
             resources_->fit_state = resources_->compute.make_storage(pass.state_bytes);
@@ -311,9 +271,9 @@ private:
 
     void draw_eye_depth(Extent extent, std::span<Draw const> draws) const {
         constexpr float nothing = 0.0f;
-        begin(resources_->eye_target, extent, resources_->depth);
+        begin(resources_->eye.framebuffer, extent, resources_->depth);
         bind_constants<MapBlock>(Constants::offset_of_map(0));
-        gl_->ClearNamedFramebufferfv(resources_->eye_target, GL_DEPTH, 0, &nothing);
+        gl_->ClearNamedFramebufferfv(resources_->eye.framebuffer, GL_DEPTH, 0, &nothing);
         gl_->DepthFunc(GL_GREATER);
         draw(draws);
         gl_->DepthFunc(GL_LESS);
@@ -324,11 +284,6 @@ private:
         for (BlockCopy const& copy : copies)
             gl_->CopyNamedBufferSubData(from, resources_->constants, static_cast<GLintptr>(copy.from),
                                         static_cast<GLintptr>(copy.to), static_cast<GLsizeiptr>(copy.size));
-    }
-
-    void demand_complete(GLuint framebuffer, std::string const& what) const {
-        if (gl_->CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            throw std::runtime_error("the driver cannot hold " + what);
     }
 
     void write_constants(Constants const& constants) const {
@@ -353,24 +308,25 @@ private:
     void draw_group(DepthPass const& pass, DrawGroup const& group) const {
         bool const layered = pass.way != DrawWay::pass_per_map;
         auto const map = static_cast<std::size_t>(std::countr_zero(group.maps));
-        begin(resources_->map_target, {pass.map_size, pass.map_size}, resources_->depth_program(pass.way));
+        Maps const& maps = resources_->maps;
+        begin(maps.framebuffer, {maps.size, maps.size}, resources_->depth_program(pass.way));
         if (layered) {
-            gl_->NamedFramebufferTexture(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0);
+            gl_->NamedFramebufferTexture(maps.framebuffer, GL_DEPTH_ATTACHMENT, maps.texture, 0);
             bind_constants<MapsBlock>(Constants::offset_of_maps(0));
         } else {
-            int const layer = static_cast<int>(map) % layers_;  // a lone layer serves every map in turn
-            gl_->NamedFramebufferTextureLayer(resources_->map_target, GL_DEPTH_ATTACHMENT, resources_->maps, 0, layer);
+            int const layer = static_cast<int>(map) % maps.layers;  // a lone layer serves every map in turn
+            gl_->NamedFramebufferTextureLayer(maps.framebuffer, GL_DEPTH_ATTACHMENT, maps.texture, 0, layer);
             bind_constants<MapBlock>(Constants::offset_of_map(map));
         }
-        clear_depth(resources_->map_target);
+        clear_depth(maps.framebuffer);
         if (pass.depth_clamp) gl_->Enable(GL_DEPTH_CLAMP);
         draw(group.draws);
         gl_->Disable(GL_DEPTH_CLAMP);
     }
 
     void begin_view() const {
-        begin(resources_->frame_target, extent_, resources_->receive);
-        gl_->BindTextureUnit(1, resources_->maps);
+        begin(resources_->frame.framebuffer, resources_->frame.extent, resources_->receive);
+        gl_->BindTextureUnit(1, resources_->maps.texture);
     }
 
     void draw_view(ViewDraw const& view, std::size_t index) const {
@@ -395,10 +351,10 @@ private:
     void clear_frame(glm::vec4 const& sky) const {
         glm::vec4 const no_point{0.0f, 0.0f, 0.0f, -2.0f};
         glm::vec4 const no_normal_lit{0.0f, 0.0f, 0.0f, 1.0f};
-        gl_->ClearNamedFramebufferfv(resources_->frame_target, GL_COLOR, 0, &sky.x);
-        gl_->ClearNamedFramebufferfv(resources_->frame_target, GL_COLOR, 1, &no_point.x);
-        gl_->ClearNamedFramebufferfv(resources_->frame_target, GL_COLOR, 2, &no_normal_lit.x);
-        clear_depth(resources_->frame_target);
+        gl_->ClearNamedFramebufferfv(resources_->frame.framebuffer, GL_COLOR, 0, &sky.x);
+        gl_->ClearNamedFramebufferfv(resources_->frame.framebuffer, GL_COLOR, 1, &no_point.x);
+        gl_->ClearNamedFramebufferfv(resources_->frame.framebuffer, GL_COLOR, 2, &no_normal_lit.x);
+        clear_depth(resources_->frame.framebuffer);
     }
 
     template <class Do>
@@ -413,22 +369,17 @@ private:
         return work;
     }
 
-    std::vector<std::string> messages_;
-    std::unique_ptr<Context> context_;
-    std::optional<Procs> gl_;
+    Session session_;  // dies last of all that follows
+    Procs const* gl_;
     std::optional<Resources> resources_;
     std::vector<Object> objects_;
-    int map_size_ = 0;
-    int layers_ = 0;
-    Extent extent_, fit_extent_;
     std::size_t state_bytes_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<Backend> make_gl_backend(GlContextKind kind, GlShaders shaders) {
-    return std::make_unique<GlBackend>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context(),
-                                       shaders);
+    return std::make_unique<GlBackend>(kind, shaders);
 }
 
 }  // namespace shadowmath::backend

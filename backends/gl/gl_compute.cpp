@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "backends/gl/compute.hpp"
-#include "backends/gl/context.hpp"
-#include "backends/gl/listen.hpp"
+#include "backends/gl/session.hpp"
 
 #include <chrono>
 #include <optional>
@@ -66,69 +65,52 @@ using namespace gl;
 
 class GlCompute final : public ComputeRunner {
 public:
-    GlCompute(std::unique_ptr<Context> context, GlShaders shaders) : context_(std::move(context)) {
-        Current const current(*context_);
-        gl_.emplace([this](char const* name) { return context_->proc(name); });
-        if (shaders == GlShaders::text) gl_->SpecializeShader = nullptr;
-        listen(*gl_, messages_);
-        compute_.emplace(*gl_);
-    }
+    GlCompute(GlContextKind kind, GlShaders shaders) : session_(kind, shaders), compute_(session_.procs()) {}
 
     ~GlCompute() override {
-        context_->make_current();
+        Current const current = session_.current();
         compute_.reset();
-        context_->release();
     }
 
-    BackendInfo info() const override {
-        Current const current(*context_);
-        auto const text = [this](GLenum what) {
-            return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
-        };
-        return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION),
-                gl_->SpecializeShader != nullptr ? "SPIR-V" : "GLSL"};
-    }
+    BackendInfo info() const override { return session_.info(session_.procs().SpecializeShader != nullptr); }
 
     Storage make_storage(std::size_t byte_count) override {
-        Current const current(*context_);
+        Current const current = session_.current();
         return compute_->make_storage(byte_count);
     }
     void write(Storage storage, std::span<std::byte const> bytes) override {
-        Current const current(*context_);
+        Current const current = session_.current();
         compute_->write(storage, bytes);
     }
     void read(Storage storage, std::span<std::byte> bytes) override {
-        Current const current(*context_);
+        Current const current = session_.current();
         compute_->read(storage, bytes);
     }
     Texture2DArray make_texture(Extent extent, int layers, std::span<float const> texels) override {
-        Current const current(*context_);
+        Current const current = session_.current();
         return compute_->make_texture(extent, layers, texels);
     }
 
     double run(std::span<Dispatch const> passes) override {
-        Current const current(*context_);
-        gl_->Finish();
+        Current const current = session_.current();
+        session_.procs().Finish();
         auto const begun = std::chrono::steady_clock::now();
         for (Dispatch const& pass : passes) compute_->run(pass);
-        gl_->Finish();
+        session_.procs().Finish();
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     }
 
-    std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
+    std::vector<std::string> take_messages() override { return session_.take_messages(); }
 
 private:
-    std::vector<std::string> messages_;
-    std::unique_ptr<Context> context_;
-    std::optional<Procs> gl_;
+    Session session_;  // dies last of all that follows
     std::optional<Compute> compute_;
 };
 
 }  // namespace
 
 std::unique_ptr<ComputeRunner> make_gl_compute(GlContextKind kind, GlShaders shaders) {
-    return std::make_unique<GlCompute>(kind == GlContextKind::egl ? make_egl_context() : make_osmesa_context(),
-                                       shaders);
+    return std::make_unique<GlCompute>(kind, shaders);
 }
 
 }  // namespace shadowmath::backend

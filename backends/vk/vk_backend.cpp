@@ -7,6 +7,7 @@
 #include "backends/vk/commands.hpp"
 #include "backends/vk/compute.hpp"
 #include "backends/vk/descriptors.hpp"
+#include "backends/vk/record.hpp"
 #include "backends/vk/statistics.hpp"
 #include "backends/vk/targets.hpp"
 
@@ -139,7 +140,8 @@ public:
             std::memcpy(constants_.mapped, &constants, sizeof(constants));
             hand_over(commands, eye_.target, fresh, depth_drawn);
             VkClearValue const nothing{};
-            begin(commands, pipelines_.depth_pass, eye_.framebuffer, eye_.extent, {&nothing, 1}, pipelines_.eye_depth);
+            begin_pass(commands, pipelines_.depth_pass, eye_.framebuffer, eye_.extent, {&nothing, 1},
+                       pipelines_.eye_depth);
             draw(commands, Constants::offset_of_map(0), eye.draws);
             vkCmdEndRenderPass(commands);
             hand_over(commands, eye_.target, depth_drawn, computed_with);
@@ -159,7 +161,7 @@ public:
         Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         commands_.submit([&](VkCommandBuffer commands) {
             hand_over(commands, maps_.target, depth_sampled, reading);
-            copy(commands, maps_.target, layer, image.extent, staging, 0);
+            copy_layer(commands, maps_.target, layer, image.extent, staging, 0);
             hand_over(commands, maps_.target, copied_from, depth_sampled);
             finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
         });
@@ -175,9 +177,9 @@ public:
         Buffer const staging =
             make_host_buffer(device_, 2 * geometry + byte_count(frame.colour), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         commands_.submit([&](VkCommandBuffer commands) {
-            copy(commands, frame_.position, 0, extent, staging, 0);
-            copy(commands, frame_.normal, 0, extent, staging, geometry);
-            copy(commands, frame_.colour, 0, extent, staging, 2 * geometry);
+            copy_layer(commands, frame_.position, 0, extent, staging, 0);
+            copy_layer(commands, frame_.normal, 0, extent, staging, geometry);
+            copy_layer(commands, frame_.colour, 0, extent, staging, 2 * geometry);
             finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
         });
         auto const* const bytes = static_cast<std::byte const*>(staging.mapped);
@@ -193,7 +195,7 @@ public:
         Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         commands_.submit([&](VkCommandBuffer commands) {
             hand_over(commands, eye_.target, computed_with, copied_from);
-            copy(commands, eye_.target, 0, image.extent, staging, 0);
+            copy_layer(commands, eye_.target, 0, image.extent, staging, 0);
             hand_over(commands, eye_.target, copied_from, computed_with);
             finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
         });
@@ -285,30 +287,6 @@ private:
         finish_copies(commands, VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT, VK_ACCESS_UNIFORM_READ_BIT);
     }
 
-    // A positive viewport: NDC y = -1 is row 0, as in the other backends.
-    static void set_viewport(VkCommandBuffer commands, Extent extent, float z_begin, float z_end) {
-        VkViewport const viewport{0.0f,    0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                                  z_begin, z_end};
-        vkCmdSetViewport(commands, 0, 1, &viewport);
-    }
-
-    void begin(VkCommandBuffer commands, VkRenderPass render_pass, VkFramebuffer framebuffer, Extent extent,
-               std::span<VkClearValue const> clear, VkPipeline pipeline) const {
-        VkRect2D const area{{0, 0},
-                            {static_cast<std::uint32_t>(extent.width), static_cast<std::uint32_t>(extent.height)}};
-        VkRenderPassBeginInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-        info.renderPass = render_pass;
-        info.framebuffer = framebuffer;
-        info.renderArea = area;
-        info.clearValueCount = static_cast<std::uint32_t>(clear.size());
-        info.pClearValues = clear.data();
-        vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        set_viewport(commands, extent, 0.0f, 1.0f);
-        vkCmdSetScissor(commands, 0, 1, &area);
-    }
-
     void draw(VkCommandBuffer commands, std::size_t block_offset, std::span<Draw const> draws) const {
         if (draws.empty()) return;
         auto const offset = static_cast<std::uint32_t>(block_offset);
@@ -323,17 +301,11 @@ private:
                              draw.first_instance);
     }
 
-    static constexpr VkClearValue far_end() {
-        VkClearValue clear{};
-        clear.depthStencil = {1.0f, 0};
-        return clear;
-    }
-
     // A render pass clears the maps of its views alone.
     void clear_maps(VkCommandBuffer commands) const {
         VkClearValue const clear = far_end();
-        begin(commands, pipelines_.depth_pass, maps_.layered, {maps_.size, maps_.size}, {&clear, 1},
-              pipelines_.per_map.get(true));
+        begin_pass(commands, pipelines_.depth_pass, maps_.layered, {maps_.size, maps_.size}, {&clear, 1},
+                   pipelines_.per_map.get(true));
         vkCmdEndRenderPass(commands);
     }
 
@@ -372,8 +344,8 @@ private:
         VkClearValue const clear = far_end();
         MapTarget const to = target_of(pass.way, group.maps);
         if (pass.way == DrawWay::multiview) hand_over(commands, maps_.target, depth_drawn, depth_drawn);
-        begin(commands, to.render_pass, to.framebuffer, {maps_.size, maps_.size}, {&clear, 1},
-              to.pipelines.get(pass.depth_clamp));
+        begin_pass(commands, to.render_pass, to.framebuffer, {maps_.size, maps_.size}, {&clear, 1},
+                   to.pipelines.get(pass.depth_clamp));
         draw(commands, to.block_offset, group.draws);
         vkCmdEndRenderPass(commands);
     }
@@ -386,13 +358,14 @@ private:
         clear[3] = far_end();
         hand_over_view(commands, fresh, colour_drawn);
         hand_over(commands, frame_.depth, fresh, depth_drawn);
-        begin(commands, pipelines_.receive_pass, frame_.framebuffer, frame_.extent, clear, pipelines_.receive);
+        begin_pass(commands, pipelines_.receive_pass, frame_.framebuffer, frame_.extent, clear, pipelines_.receive);
     }
 
     void resume_view(VkCommandBuffer commands) const {
         hand_over_view(commands, colour_drawn, colour_drawn);
         hand_over(commands, frame_.depth, depth_drawn, depth_drawn);
-        begin(commands, pipelines_.receive_pass_resumed, frame_.framebuffer, frame_.extent, {}, pipelines_.receive);
+        begin_pass(commands, pipelines_.receive_pass_resumed, frame_.framebuffer, frame_.extent, {},
+                   pipelines_.receive);
     }
 
     void draw_view(VkCommandBuffer commands, ViewDraw const& view, std::size_t index) const {
@@ -405,15 +378,6 @@ private:
     void hand_over_view(VkCommandBuffer commands, Use from, Use to) const {
         for (Target const* target : {&frame_.colour, &frame_.position, &frame_.normal})
             hand_over(commands, *target, from, to);
-    }
-
-    static void copy(VkCommandBuffer commands, Target const& from, int layer, Extent extent, Buffer const& to,
-                     VkDeviceSize offset) {
-        VkBufferImageCopy region{};
-        region.bufferOffset = offset;
-        region.imageSubresource = {from.aspect, 0, static_cast<std::uint32_t>(layer), 1};
-        region.imageExtent = {static_cast<std::uint32_t>(extent.width), static_cast<std::uint32_t>(extent.height), 1};
-        vkCmdCopyImageToBuffer(commands, from.image, copied_from.layout, to.handle, 1, &region);
     }
 
     template <class Record>

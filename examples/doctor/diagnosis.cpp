@@ -74,13 +74,6 @@ std::string percent(double share) {
     return digits(share * 100.0) + " %";
 }
 
-double percentile(std::vector<double> values, double share) {
-    if (values.empty()) return 0.0;
-    auto const at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
 Diagnosis diagnose(Case const& read, Sight const& sight) {
     Examination examination{read, sight, {}, {}, {}, {}};
     std::size_t const count = read.frame.maps.size();

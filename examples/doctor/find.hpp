@@ -4,6 +4,7 @@
 #pragma once
 
 #include "examples/doctor/diagnosis.hpp"
+#include "examples/support/percentile.hpp"
 
 namespace shadowmath::doctor {
 
@@ -44,7 +45,6 @@ void measure(Examination& examination);
 [[nodiscard]] std::string digits(double number);
 [[nodiscard]] std::string percent(double share);
 
-// The value below which `share` of the values lie; 0 of none.
-[[nodiscard]] double percentile(std::vector<double> values, double share);
+using example::percentile;
 
 }  // namespace shadowmath::doctor

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/technique_fits.hpp"
+#include "examples/gallery/tile_depths.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -44,23 +44,14 @@ void maps_for_boxes(MapSet& set, Input const& in) {
 void maps_for_depths(MapSet& set, Input const& in) {
     backend::Extent const pixels = in.eye_depth.extent, tiles{std::min(120, pixels.width), std::min(68, pixels.height)};
     DepthCode<float> const code = depth_code(sampling_eye(in.view, in.extent), sampling_clip);
-    auto const count = std::size_t(tiles.width) * std::size_t(tiles.height);
-    std::vector<double> nearest(count, std::numeric_limits<double>::max());
-    std::vector<double> farthest(count, std::numeric_limits<double>::lowest());
+    TileDepths depths(tiles, pixels);
     for (int y = 0; y < pixels.height; ++y)
         for (int x = 0; x < pixels.width; ++x) {
             double const depth = double(decoded_depth(code, in.eye_depth.at(x, y)));
-            if (!(depth > 0.0 && depth <= in.seen.z_far)) continue;
-            int const i = int((x + 0.5) * tiles.width / pixels.width);
-            int const j = int((y + 0.5) * tiles.height / pixels.height);
-            auto const tile = std::size_t(j) * std::size_t(tiles.width) + std::size_t(i);
-            nearest[tile] = std::min(nearest[tile], depth);
-            farthest[tile] = std::max(farthest[tile], depth);
+            if (depth > 0.0 && depth <= in.seen.z_far) depths.add(x, y, depth);
         }
     auto const work = std::make_unique<MapSearch<double>>();
-    take(set, in,
-         choose_maps<double>(in.seen, in.light, in.casters, nullptr, 0,
-                             {nearest.data(), farthest.data(), tiles.width, tiles.height}, limits_of(in), *work));
+    take(set, in, choose_maps<double>(in.seen, in.light, in.casters, nullptr, 0, depths.tiles(), limits_of(in), *work));
 }
 
 }  // namespace shadowmath::gallery

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/pictures.hpp"
 
+#include "examples/support/percentile.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,13 +65,8 @@ DepthRange contrast_range(backend::Image<float> const& depth) {
     for (std::size_t i = 0; i < depth.pixels.size(); i += 7)
         if (depth.pixels[i] < 1.0f) drawn.push_back(depth.pixels[i]);
     if (drawn.empty()) return {0.0f, 1.0f};
-    auto const quantile = [&](double q) {
-        auto const place = drawn.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(drawn.size() - 1));
-        std::nth_element(drawn.begin(), place, drawn.end());
-        return *place;
-    };
-    float const lo = quantile(0.02);
-    return {lo, std::max(quantile(0.98), lo + 1e-9f)};
+    float const lo = example::percentile(drawn, 0.02);
+    return {lo, std::max(example::percentile(drawn, 0.98), lo + 1e-9f)};
 }
 
 // A palette laid out as bands: `shade` runs from 0 to 1 within each.

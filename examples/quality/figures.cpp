@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "examples/quality/figures.hpp"
 
+#include "examples/support/percentile.hpp"
+
 #include <shadowmath/footprint.hpp>
 #include <shadowmath/judge.hpp>
 
@@ -12,14 +14,6 @@
 
 namespace shadowmath::quality {
 namespace {
-
-// The value below which `share` of all lie.
-double quantile(std::vector<float>& values, double share) {
-    if (values.empty()) return 0.0;
-    auto const at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 class Seen {
 public:
@@ -88,7 +82,12 @@ MapFigures map_figures(gallery::ViewTruth const& truth, gallery::MapSet const& m
     backend::Extent const extent = truth.question.extent;
     glm::dmat4 const eye_clip_from_world(maps.frame.clip_from_world);
     glm::dvec2 const eye_pixels(extent.width, extent.height);
+    ViewVolume<double> const eye =
+        perspective_view(pose_looking(view.eye, view.forward, view.up), view.fov_y_radians,
+                         double(extent.width) / double(extent.height), view.z_near, view.shadow_distance);
+    Light<double> const light = directional(view.light_travel);
     std::vector<float> whole, perspective;
+    long mapped = 0;
     Seen seen(maps, frame);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
@@ -97,6 +96,7 @@ MapFigures map_figures(gallery::ViewTruth const& truth, gallery::MapSet const& m
             if (p.w < 0.0f || map >= std::ptrdiff_t(maps.maps.size())) continue;
             glm::dvec3 const point(p.x, p.y, p.z), normal(n.x, n.y, n.z);
             seen.add(x, y, std::size_t(map), point, normal);
+            ++mapped;
             Question const question = truth.question.at(x, y);
             if (question == Question::none || question == Question::beyond) continue;
             glm::dmat4 const& clip_from_world = maps.maps[std::size_t(map)].clip_from_world;
@@ -106,15 +106,17 @@ MapFigures map_figures(gallery::ViewTruth const& truth, gallery::MapSet const& m
                         .major);
             };
             whole.push_back(major(normal));
-            glm::dvec3 const to_eye = glm::normalize(view.eye - point),
-                             half = to_eye - glm::normalize(view.light_travel);
-            perspective.push_back(major(glm::length(half) > 1e-3 ? glm::normalize(half) : to_eye));
+            perspective.push_back(major(neutral_normal(eye, light, point)));
         }
     MapFigures figures;
     for (float const one : perspective) figures.perspective_mean += double(one) / double(perspective.size());
-    figures.footprint_median = quantile(whole, 0.5);
-    figures.perspective_p95 = quantile(perspective, 0.95);
+    for (float const one : whole) figures.capped_mean += std::min(double(one), lost_pixels) / double(whole.size());
+    figures.footprint_median = example::percentile(whole, 0.5);
+    figures.perspective_p95 = example::percentile(perspective, 0.95);
     figures.texels_seen = seen.share();
+    int const taps = 2 * gallery::filter_radius + 1;
+    double const texels = double(maps.maps.size()) * double(maps.map_size) * double(maps.map_size);
+    figures.texels_most = texels > 0.0 ? std::min(1.0, double(mapped) * taps * taps / texels) : 0.0;
     return figures;
 }
 

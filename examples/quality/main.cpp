@@ -36,6 +36,10 @@ int study(int argc, char** argv) {
     app.add_option("--view", settings.only_views, "only views whose scene/name holds one of these");
     app.add_option("--truth", settings.truth, "folder in which traced truths are kept for later runs");
     app.add_option("--backend", settings.backend, "egl or osmesa")->check(CLI::IsMember({"egl", "osmesa"}));
+    app.add_option("--fresh", settings.fresh, "views drawn by a rule from this seed, instead of those of the study");
+    app.add_option("--attainable", settings.search_steps,
+                   "steps of a search for the least footprints that four maps can have in each view (40000: half a "
+                   "minute a view); goes with the policy chosen-depth");
     app.add_flag("!--no-pictures", settings.pictures, "no heat maps");
     try {
         app.parse(argc, argv);

@@ -130,18 +130,16 @@ Fitted options_from_depth(Input const& in) {
 }
 
 Fitted sampled(Input const& in, SampleSplits kind) {
+    DepthTiles<double> const tiles = in.coarse.depths.tiles();
+    int const count = tiles.width * tiles.height;
     SampleDepths<double> depths = no_depths(in.seen.z_near, in.seen.z_far);
-    for (auto const& sample : in.coarse.points) add(depths, eye_depth(in.seen, sample.point));
+    for (int i = 0; i < count; ++i)
+        if (tiles.nearest[i] <= tiles.farthest[i])
+            for (double const depth : {tiles.nearest[i], tiles.farthest[i]}) add(depths, depth);
     SampleBounds<double> bounds = no_bounds(sample_splits(depths, map_count, kind, 1.25), 0.0);
-    SampleRays<double> const rays = sample_rays(in.eye, in.light, in.coarse.extent.width, in.coarse.extent.height);
-    Pose<double> const& pose = in.eye.pose;
-    for (auto const& sample : in.coarse.points) {
-        glm::dvec3 const p = sample.point - pose.position;
-        double const depth = glm::dot(pose.forward, p);
-        glm::dvec2 const side(glm::dot(pose.right, p) / depth, glm::dot(pose.up, p) / depth);
-        glm::dvec2 const pixel = (side - rays.first) / rays.step + 0.5;
-        add(bounds, rays, int(std::floor(pixel.x)), int(std::floor(pixel.y)), depth);
-    }
+    SampleRays<double> const rays = sample_rays(in.eye, in.light, tiles.width, tiles.height);
+    for (int i = 0; i < count; ++i)
+        add_tile(bounds, rays, i % tiles.width, i / tiles.width, tiles.nearest[i], tiles.farthest[i]);
     SampleFitOptions<double> options;
     options.map_size = map_size;
     options.margin_texels = margin_texels;
@@ -200,10 +198,8 @@ Fitted with(Input const& in, ChosenMaps<double> const& chosen) {
 Fitted chosen_from_depth(Input const& in) {
     static MapSearch<double> work;
     MapLimits<double> const limits = limits_of(in);
-    ChosenMaps<double> const chosen = choose_maps(
-        in.seen, in.light, in.casters, in.coarse.points.data(), int(in.coarse.points.size()),
-        {in.coarse.nearest.data(), in.coarse.farthest.data(), in.coarse.extent.width, in.coarse.extent.height}, limits,
-        work);
+    ChosenMaps<double> const chosen = choose_maps(in.seen, in.light, in.casters, in.coarse.points.data(),
+                                                  int(in.coarse.points.size()), in.coarse.depths.tiles(), limits, work);
     return with(in, chosen);
 }
 
@@ -279,13 +275,8 @@ std::vector<Policy> const& policies() {
 }
 
 Coarse coarse_of(backend::Frame const& frame, View const& view) {
-    Coarse coarse;
-    auto const count = std::size_t(coarse.extent.width) * std::size_t(coarse.extent.height);
-    coarse.nearest.assign(count, std::numeric_limits<double>::max());
-    coarse.farthest.assign(count, std::numeric_limits<double>::lowest());
     backend::Extent const extent = frame.position.extent;
-    auto const tile_of = [](int pixel, int pixels, int tiles) { return int((pixel + 0.5) * tiles / pixels); };
-    auto const middle_of = [](int tile, int pixels, int tiles) { return int((tile + 0.5) * pixels / tiles); };
+    Coarse coarse(extent);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
             backend::Texel4 const &p = frame.position.at(x, y), &n = frame.normal.at(x, y);
@@ -293,16 +284,8 @@ Coarse coarse_of(backend::Frame const& frame, View const& view) {
             glm::dvec3 const point(p.x, p.y, p.z), normal(n.x, n.y, n.z);
             double const depth = glm::dot(view.forward, point - view.eye);
             if (depth > view.shadow_distance) continue;
-            int const i = tile_of(x, extent.width, coarse.extent.width),
-                      j = tile_of(y, extent.height, coarse.extent.height);
-            auto const tile = std::size_t(j * coarse.extent.width + i);
-            if (glm::dot(normal, view.light_travel) < 0.0) {
-                coarse.nearest[tile] = std::min(coarse.nearest[tile], depth);
-                coarse.farthest[tile] = std::max(coarse.farthest[tile], depth);
-            }
-            if (x == middle_of(i, extent.width, coarse.extent.width) &&
-                y == middle_of(j, extent.height, coarse.extent.height))
-                coarse.points.push_back({point, normal});
+            if (glm::dot(normal, view.light_travel) < 0.0) coarse.depths.add(x, y, depth);
+            if (coarse.depths.is_middle(x, y)) coarse.points.push_back({point, normal});
         }
     return coarse;
 }

@@ -6,6 +6,7 @@
 
 #include "backends/backend.hpp"
 #include "examples/gallery/techniques.hpp"
+#include "examples/gallery/tile_depths.hpp"
 #include "scenes/view.hpp"
 
 #include <shadowmath/bounds.hpp>
@@ -36,9 +37,10 @@ struct Policy {
 // A coarse picture of the view: what a renderer reads back, or keeps of its last frame. In each tile the surface in its
 // middle, and the depths of the nearest and the farthest one that faces the light: three samples a tile.
 struct Coarse {
-    backend::Extent extent{120, 68};
+    explicit Coarse(backend::Extent picture) : depths({120, 68}, picture) {}
+
     std::vector<SurfacePoint<double>> points;  // within the shadow distance
-    std::vector<double> nearest, farthest;     // eye depth, tile by tile; nearest > farthest: nothing
+    gallery::TileDepths depths;                // of the surfaces that face the light
 };
 
 [[nodiscard]] Coarse coarse_of(backend::Frame const& frame, scenes::View const& view);

@@ -6,7 +6,10 @@
 #include "examples/gallery/measure.hpp"
 #include "examples/gallery/pictures.hpp"
 #include "examples/gallery/truth.hpp"
+#include "examples/quality/attainable.hpp"
+#include "examples/quality/fresh_views.hpp"
 #include "examples/quality/views.hpp"
+#include "examples/support/percentile.hpp"
 #include "scenes/obj.hpp"
 #include "scenes/scenes.hpp"
 
@@ -26,8 +29,16 @@ using gallery::ViewTruth;
 using oracle::Truth;
 
 // What is kept of a truth: two bytes a pixel, behind what it is the truth of.
-std::string identity(scenes::View const& view, backend::Extent extent) {
-    std::string text = "truth 1 " + std::to_string(extent.width) + "x" + std::to_string(extent.height);
+std::string identity(backend::Scene const& scene, scenes::View const& view, backend::Extent extent) {
+    // FNV-1a.
+    std::uint64_t sum = 0xcbf29ce484222325u;
+    auto const add = [&sum](void const* data, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) sum = (sum ^ static_cast<std::uint8_t const*>(data)[i]) * 0x100000001b3u;
+    };
+    for (backend::Vertex const& vertex : scene.vertices) add(&vertex.position, sizeof vertex.position);
+    add(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t));
+    std::string text =
+        "truth 2 " + std::to_string(sum) + " " + std::to_string(extent.width) + "x" + std::to_string(extent.height);
     for (double const number :
          {view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, view.light_travel.x,
           view.light_travel.y, view.light_travel.z, view.shadow_distance, view.fov_y_radians})
@@ -53,10 +64,10 @@ std::optional<ViewTruth> kept_truth(fs::path const& file, std::string const& ide
     return truth;
 }
 
-ViewTruth truth_of(Settings const& settings, std::string const& scene, backend::Backend& backend,
+ViewTruth truth_of(Settings const& settings, backend::Scene const& scene, backend::Backend& backend,
                    oracle::RayOracle const& oracle, scenes::View const& view) {
-    fs::path const file = settings.truth / (scene + "-" + view.name);
-    std::string const id = identity(view, settings.extent);
+    fs::path const file = settings.truth / (scene.name + "-" + view.name);
+    std::string const id = identity(scene, view, settings.extent);
     if (!settings.truth.empty())
         if (auto kept = kept_truth(file, id, backend, view, settings.extent)) return std::move(*kept);
     ViewTruth truth = gallery::true_view(backend, oracle, view, settings.extent);
@@ -112,25 +123,27 @@ public:
     }
 
     Results run() {
-        for (auto const& name : scenes::scene_names()) show(scenes::make_scene(name, scenes::SceneSize::medium));
+        std::uint64_t const seed = settings_.fresh.value_or(1);
+        for (auto const& name : scenes::scene_names()) show(scenes::make_scene(name, scenes::SceneSize::medium, seed));
         for (auto const& model : models_in(settings_.models, results_)) show(model);
         return std::move(results_);
     }
 
 private:
     void show(scenes::NamedScene const& named) {
-        std::vector<scenes::View> views = study_views(named);
+        oracle::RayOracle const oracle(named.scene);
+        std::vector<scenes::View> views =
+            settings_.fresh ? fresh_views(named, oracle, *settings_.fresh) : study_views(named);
         std::erase_if(views, [&](auto const& view) {
             return !is_wanted(settings_.only_views, named.scene.name + "/" + view.name);
         });
         if (views.empty()) return;
         backend_->upload(named.scene);
-        oracle::RayOracle const oracle(named.scene);
         for (scenes::View const& view : views) show(named.scene, oracle, view);
     }
 
     void show(backend::Scene const& scene, oracle::RayOracle const& oracle, scenes::View const& view) {
-        ViewTruth const truth = truth_of(settings_, scene.name, *backend_, oracle, view);
+        ViewTruth const truth = truth_of(settings_, scene, *backend_, oracle, view);
         backend_->draw_scene({settings_.extent, gallery::unshadowed(view, settings_.extent)});
         Coarse const coarse = coarse_of(backend_->read_frame(), view);
         ViewResult result{scene.name, view.name, view.shadow_distance, {}, {}};
@@ -146,6 +159,8 @@ private:
                                      record.footprint_mean, record.footprint_p95, record.map_used_fraction,
                                      map_figures(truth, made.maps, frame, view), dark_unmapped(truth, frame),
                                      record.maps, made.milliseconds, made.maps.note});
+            if (settings_.search_steps > 0 && policy.id == "chosen-depth")
+                result.attainable = sought(truth, frame, made.maps, view);
             keep_pictures(scene.name + "-" + view.name, policy, frame, measured, result);
             char text[64];
             std::snprintf(text, sizeof text, " %s %.3f", policy.id.c_str(),
@@ -155,6 +170,26 @@ private:
         for (std::string const& message : backend_->take_messages()) throw std::runtime_error(message);
         tell_(scene.name + "/" + view.name + ":" + line);
         results_.views.push_back(std::move(result));
+    }
+
+    [[nodiscard]] Attainable sought(ViewTruth const& truth, backend::Frame const& frame, gallery::MapSet const& maps,
+                                    scenes::View const& view) const {
+        std::vector<SurfacePoint<double>> surfaces;
+        for (std::size_t i = 0; i < truth.question.pixels.size(); ++i) {
+            Question const question = truth.question.pixels[i];
+            if (question == Question::none || question == Question::beyond) continue;
+            backend::Texel4 const &p = frame.position.pixels[i], &n = frame.normal.pixels[i];
+            surfaces.push_back({{p.x, p.y, p.z}, {n.x, n.y, n.z}});
+        }
+        std::vector<LightPixel> const pixels = light_pixels(surfaces, view, settings_.extent);
+        double const usable = usable_texels(map_size, gallery::filter_radius + 1.0);
+        std::vector<Quad<double>> start;
+        for (gallery::Map const& map : maps.maps)
+            start.push_back(quad_of(map.clip_from_world, view, usable / map_size));
+        SearchEffort effort;
+        effort.steps = settings_.search_steps;
+        return {searched(pixels, start, Aim::mean, map_count, usable, effort).mean,
+                searched(pixels, start, Aim::p95, map_count, usable, effort).p95};
     }
 
     // Of the recipe to beat and of what is chosen.
@@ -187,10 +222,7 @@ std::ptrdiff_t least_of(Items const& items, Value&& value) {
 double median_of(Results const& results, std::function<double(ViewResult const&)> const& value) {
     std::vector<double> values;
     for (ViewResult const& view : results.views) values.push_back(value(view));
-    if (values.empty()) return 0.0;
-    auto const middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return example::percentile(std::move(values), 0.5);
 }
 
 }  // namespace
@@ -222,6 +254,8 @@ std::vector<Summary> summaries(Results const& results) {
             sum.figures.perspective_mean += score.figures.perspective_mean / count;
             sum.figures.perspective_p95 += score.figures.perspective_p95 / count;
             sum.figures.texels_seen += score.figures.texels_seen / count;
+            sum.figures.texels_most += score.figures.texels_most / count;
+            sum.figures.capped_mean += score.figures.capped_mean / count;
             sum.dark_unmapped += score.dark_unmapped;
             sum.fit_milliseconds += score.fit_milliseconds / count;
         }

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Settings {
     backend::Extent extent{960, 540};
     std::vector<std::string> only_policies;  // empty: all
     std::vector<std::string> only_views;     // parts of "scene/view"; empty: all
+    std::optional<std::uint64_t> fresh;      // a seed: views drawn by a rule (fresh_views.hpp), not those of the study
+    int search_steps = 0;                    // of a search for what could be had (attainable.hpp); 0: none
     std::string backend = "egl";
     bool pictures = true;
 };
@@ -38,11 +41,17 @@ struct Score {
     std::string note;
 };
 
+// The best that a long search has found, each figure sought for its own sake.
+struct Attainable {
+    double footprint_mean = 0.0, footprint_p95 = 0.0;
+};
+
 struct ViewResult {
     std::string scene, view;
     double shadow_distance = 0.0;
     std::vector<Score> scores;                                  // in the order of the policies
     std::vector<std::pair<std::string, std::string>> pictures;  // policy, file
+    std::optional<Attainable> attainable{};
 };
 
 struct Results {

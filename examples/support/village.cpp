@@ -120,6 +120,13 @@ Village village() {
     return build.made;
 }
 
+std::vector<Triangle> boards(std::vector<Aabb<float>> const& boxes) {
+    Builder build;
+    for (auto const& [lo, hi] : boxes)
+        build.quad(vec3(lo.x, hi.y, hi.z), hi, vec3(hi.x, hi.y, lo.z), vec3(lo.x, hi.y, lo.z), vec3(0.6f));
+    return build.made.triangles;
+}
+
 ViewVolume<float> village_view(float z_far) {
     Pose<float> const pose = pose_looking(vec3(0.4f, 2.6f, 7.5f), vec3(-0.02f, -0.09f, -1.0f), vec3(0.0f, 1.0f, 0.0f));
     return perspective_view(pose, 0.95f, 16.0f / 9.0f, 0.5f, z_far);

@@ -31,6 +31,9 @@ struct Village {
 // From the path at the edge of the village, a picture of 16 to 9.
 [[nodiscard]] ViewVolume<float> village_view(float z_far = 120.0f);
 
+// The tops of boxes, two grey triangles each: for scenes that a few boards make.
+[[nodiscard]] std::vector<Triangle> boards(std::vector<Aabb<float>> const& boxes);
+
 inline constexpr glm::vec3 afternoon_sun{-0.55f, -0.6f, -0.42f};  // the way it travels
 
 }  // namespace shadowmath::example

@@ -34,6 +34,7 @@
 #include <shadowmath/polytope.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/slice.hpp>
+#include <shadowmath/slice_warps.hpp>
 #include <shadowmath/splits.hpp>
 #include <shadowmath/texel_grid.hpp>
 #include <shadowmath/view_volume.hpp>
@@ -175,6 +176,29 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
+// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is mended.
+template <class T>
+[[nodiscard]] inline bool fit_warps(Cascades<T>& cascades, int first, ViewVolume<T> const& seen, Light<T> const& light,
+                                    Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
+                                    CascadeOptions<T> const& options) noexcept {
+    SliceRange<T> ranges[max_splits];
+    T strengths[max_splits];
+    ShadowMap<T>* maps[max_splits];
+    int const count = cascades.count - first;
+    bool in_range = count > 0 && light.kind == LightKind::directional;
+    for (int i = 0; i < count; ++i) {
+        Cascade<T>& cascade = cascades.at[first + i];
+        ranges[i] = cascade.range, maps[i] = &cascade.map;
+        strengths[i] = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(first + i)]);
+        in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
+    }
+    if (!in_range) return false;
+    WarpInputs<T> const in{
+        seen,        safe_normalize(light.direction).direction, faults_of(light), options.map_size, margin_texels,
+        options.clip};
+    return warp_slices(in, ranges, strengths, count, casters, receivers, maps);
+}
+
 }  // namespace detail
 
 // Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its
@@ -217,12 +241,22 @@ template <class T>
     cascades.count = splits.count;
     cascades.faults = faults | splits.faults;
     for (int i = 0; i < splits.count; ++i) {
+        cascades.at[i].range = slice_range(splits, i, blend);
+        cascades.at[i].map.clip = options.clip;
+    }
+    if (is_empty(casters) || is_empty(receivers)) return cascades;
+    int alone = splits.count;  // so many of the first are made one by one
+    if (options.fit == CascadeFit::warped) {
+        int const steady = options.steady_maps < 0 ? 0 : (options.steady_maps < alone ? options.steady_maps : alone);
+        if (detail::fit_warps(cascades, steady, seen, light, casters, receivers, margin_texels, options))
+            alone = steady;
+    }
+    for (int i = 0; i < splits.count; ++i) {
         Cascade<T>& cascade = cascades.at[i];
-        cascade.range = slice_range(splits, i, blend);
-        cascade.map.clip = options.clip;
         ViewVolume<T> const part = slice(seen, cascade.range);
-        if (is_empty(casters) || is_empty(receivers)) continue;
-        if (light.kind == LightKind::directional) {
+        if (i >= alone) {
+            // Made already.
+        } else if (light.kind == LightKind::directional) {
             Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
             CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
             T const strength = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(i)]);

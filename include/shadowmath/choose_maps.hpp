@@ -6,6 +6,8 @@
 //                                                              ├─ parts ── fit_quad ────┼─ quad_map ── map 1
 //   from boxes alone      ── what it may see (box_samples) ────┘  (part_search)         └─ ...
 //
+// Before they are maps, the quadrilaterals move against each other once more (quad_settle.hpp).
+//
 // Every map of a sun is a homography of the light's plane: a box, a rectangle at any angle, a warp of any strength, a
 // view-dependent map. So none of these is a policy here. Each part of the picture gets the quadrilateral whose texels
 // look smallest in it, whatever it may be called. Maps come finest first and are looked up by by_map (sampling.hpp): a
@@ -33,6 +35,7 @@
 #include <shadowmath/part_search.hpp>
 #include <shadowmath/polytope.hpp>
 #include <shadowmath/quad_map.hpp>
+#include <shadowmath/quad_settle.hpp>
 #include <shadowmath/quad_stack.hpp>
 #include <shadowmath/shadow_map.hpp>
 #include <shadowmath/view_volume.hpp>
@@ -149,6 +152,8 @@ template <class T, class Bound, class Cover>
         stack = candidate;
     }
     chosen.tried = search.tried;
+    stack = settled(work, stack, search.usable_texels, cover);
+    least = price_in(stack, work, search.usable_texels);
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.

@@ -48,6 +48,9 @@ struct LongFloats {
     friend LongFloats operator*(LongFloats const& a, LongFloats const& b) noexcept {
         return {a.at * b.at};
     }
+    friend LongFloats operator/(LongFloats const& a, LongFloats const& b) noexcept {
+        return {a.at / b.at};
+    }
     friend LongFloats least(LongFloats const& a, LongFloats const& b) noexcept {
         return {a.at < b.at ? a.at : b.at};
     }
@@ -108,6 +111,11 @@ template <class Long, class T>
     Long lanes;
     std::memcpy(&lanes, values, sizeof lanes);
     return lanes;
+}
+
+template <class T, class Long>
+inline void store_long(T* values, Long const& lanes) noexcept {
+    std::memcpy(values, &lanes, sizeof lanes);
 }
 
 }  // namespace detail

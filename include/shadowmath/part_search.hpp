@@ -29,12 +29,32 @@ inline namespace v0 {
 inline constexpr int max_chosen_maps = 4;
 inline constexpr int max_search_samples = 1024;
 
-// What a search works on: 100 to 200 kB that the caller keeps, so that no stack has to. Nothing in it outlives a call.
+inline constexpr int max_settling_pieces = 1024;
+inline constexpr int max_piece_points = 8;
+
+// Points of the light's plane that one map must hold together (quad_settle.hpp).
+template <class T>
+struct SettlingPiece {
+    std::array<Vec2<T>, max_piece_points> point;
+    int count = 0;
+};
+
+// What one map makes of them all.
+template <class T>
+struct SettlingView {
+    std::array<T, max_search_samples> price;              // of each sample; below 0: not in the map
+    std::array<std::uint8_t, max_settling_pieces> holds;  // each piece
+};
+
+// What a search works on: 200 to 400 kB that the caller keeps, so that no stack has to. Nothing in it outlives a call.
 template <class T>
 struct MapSearch {
     std::array<LightSample<T>, max_search_samples> sample;
     std::array<std::uint16_t, max_search_samples> list;
     int count = 0;
+    std::array<SettlingPiece<T>, max_settling_pieces> piece;
+    int piece_count = 0;
+    std::array<SettlingView<T>, max_chosen_maps + 2> view;
 };
 
 // Sides of the view, and eye depth: lo <= (side x, side y, depth) < hi.

@@ -89,7 +89,10 @@ template <class T>
     return bits == std::numeric_limits<std::int64_t>::min() ? 0 : bits;
 }
 [[nodiscard]] inline long double order_of(long double value) noexcept {
-    return value == value ? value : std::numeric_limits<long double>::infinity();
+    constexpr std::uint32_t bits = 0x7f800000u;  // infinity without its name, of which clang warns under -ffast-math
+    float infinity;
+    std::memcpy(&infinity, &bits, sizeof infinity);
+    return value == value ? value : static_cast<long double>(infinity);
 }
 
 // Unit to a thousandth, as light_basis makes them for every light that is usable.

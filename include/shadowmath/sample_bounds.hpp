@@ -69,12 +69,20 @@ template <class T>
     return rays;
 }
 
+namespace detail {
+
+template <class T>
+[[nodiscard]] inline Vec3<T> from_eye(SampleRays<T> const& rays, Vec2<T> const& side, T depth) noexcept {
+    Vec3<T> const aside = rays.right * side.x + rays.up * side.y;
+    return rays.kind == ViewKind::perspective ? (rays.forward + aside) * depth : rays.forward * depth + aside;
+}
+
+}  // namespace detail
+
 // Light space relative to the eye, metres.
 template <class T>
 [[nodiscard]] inline Vec3<T> from_eye(SampleRays<T> const& rays, int x, int y, T depth) noexcept {
-    Vec2<T> const side = rays.first + rays.step * Vec2<T>(T(x), T(y));
-    Vec3<T> const aside = rays.right * side.x + rays.up * side.y;
-    return rays.kind == ViewKind::perspective ? (rays.forward + aside) * depth : rays.forward * depth + aside;
+    return detail::from_eye(rays, rays.first + rays.step * Vec2<T>(T(x), T(y)), depth);
 }
 
 // One box a split. A sample near a plane counts for both neighbours: whoever looks it up may compute its depth a little
@@ -112,6 +120,26 @@ inline void add(SampleBounds<T>& bounds, SampleRays<T> const& rays, int x, int y
     Vec3<T> const point = from_eye(rays, x, y, depth);
     for (int i = 0; i < bounds.count; ++i)
         if (is_served(bounds.range[i], depth)) bounds.box[i] = merge(bounds.box[i], point);
+}
+
+// Takes in all that a tile may hold: its whole cell of the picture from the nearest to the farthest eye depth in it, as
+// a depth pyramid has them. `rays` are those of a picture with a pixel for each tile. Depths that are no numbers, and
+// nearest > farthest, are no tile; what lies outside all splits is left out.
+template <class T>
+inline void add_tile(SampleBounds<T>& bounds, SampleRays<T> const& rays, int x, int y, T const& nearest,
+                     T const& farthest) noexcept {
+    if (!all_finite(&nearest, 1) || !all_finite(&farthest, 1)) return;
+    Vec2<T> const middle = rays.first + rays.step * Vec2<T>(T(x), T(y));
+    for (int i = 0; i < bounds.count; ++i) {
+        T const begin = bounds.range[i].begin * (T(1) - T(0x1p-12)), end = bounds.range[i].end * (T(1) + T(0x1p-12));
+        T const first = nearest > begin ? nearest : begin, last = farthest < end ? farthest : end;
+        if (!(first <= last)) continue;
+        for (T const depth : {first, last})
+            for (T const u : {T(-0.5), T(0.5)})
+                for (T const v : {T(-0.5), T(0.5)})
+                    bounds.box[i] =
+                        merge(bounds.box[i], detail::from_eye(rays, middle + rays.step * Vec2<T>(u, v), depth));
+    }
 }
 
 // Takes in all samples of another part of the same view, cut by the same splits. Order and grouping of parts never

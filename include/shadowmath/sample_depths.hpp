@@ -31,7 +31,6 @@ namespace shadowmath {
 inline namespace v0 {
 
 inline constexpr int depth_bins = 512;
-inline constexpr int depth_bins_an_octave = 32;
 
 // The depths of samples that are seen; least and greatest of each bin exactly.
 template <class T>

@@ -42,11 +42,13 @@
 #include <shadowmath/plane_choice.hpp>
 #include <shadowmath/plane_set.hpp>
 #include <shadowmath/points.hpp>
+#include <shadowmath/slice_warps.hpp>
 #include <shadowmath/vdsm.hpp>
 #include <shadowmath/warp.hpp>
 
 // Stillness; translate and scale.
 #include <shadowmath/clipmap.hpp>
+#include <shadowmath/projected_bounds.hpp>
 #include <shadowmath/region.hpp>
 #include <shadowmath/schedule.hpp>
 #include <shadowmath/scroll.hpp>
@@ -76,6 +78,7 @@
 #include <shadowmath/light_samples.hpp>
 #include <shadowmath/part_search.hpp>
 #include <shadowmath/quad_map.hpp>
+#include <shadowmath/quad_settle.hpp>
 #include <shadowmath/quad_stack.hpp>
 
 // The same for what is seen, pixel by pixel.

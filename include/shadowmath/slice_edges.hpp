@@ -91,14 +91,25 @@ template <class T>
     return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
 }
 
-// What edges, from `origin` on, reach between a and b: around their middle, by half their length. Where a > b an edge
-// is none, and its extent is inside out by more than anything can be long.
+// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge is
+// none.
 template <class L>
-[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(Vectors<L> const& origin, HalfStep<L> const& half,
-                                                                    L const& a, L const& b) noexcept {
-    Vectors<L> const middle = origin + half.step * (a + b);
-    L const length = where_at_most(a, b, b - a, L::all(typename L::Scalar(-3e38)));
-    Vectors<L> const reach = half.size * length;
+struct CutEdges {
+    Vectors<L> origin;
+    HalfStep<L> const& half;
+    L first, last;
+
+    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept { return origin + half.step * (first + last); }
+    // Steps; of one that is none, less than nothing by more than anything can be long.
+    [[nodiscard, gnu::always_inline]] L length() const noexcept {
+        return where_at_most(first, last, last - first, L::all(typename L::Scalar(-1e37)));
+    }
+};
+
+// What edges reach: around their middle, by half their length; inside out where an edge is none.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(CutEdges<L> const& edges) noexcept {
+    Vectors<L> const middle = edges.middle(), reach = edges.half.size * edges.length();
     return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
 }
 
@@ -252,7 +263,7 @@ template <class T>
             last = least(last, root + spread<Long>(not_left[i], axis));
         };
         cut(0), cut(1), cut(2), cut(3);
-        auto const store = [axis](T* to, Long const& lanes) { std::memcpy(to + 4 * axis, &lanes, sizeof lanes); };
+        auto const store = [axis](T* to, Long const& lanes) { store_long(to + 4 * axis, lanes); };
         auto const lit = [&](auto place) {
             constexpr int i = decltype(place)::value;
             return x * long_of<i>(seen.lit.x) + y * long_of<i>(seen.lit.y) + z * long_of<i>(seen.lit.z);
@@ -270,9 +281,17 @@ template <class T>
 template <class T>
 struct ExtentsOfSlices {
     T lo[3][16], hi[3][16];
+
+    // Of slices from i on.
+    template <class Long>
+    [[gnu::always_inline]] void store(int i, ExtentInLanes<Long> const& extent) noexcept {
+        store_long(lo[0] + 4 * i, extent.lo.x), store_long(lo[1] + 4 * i, extent.lo.y);
+        store_long(lo[2] + 4 * i, extent.lo.z), store_long(hi[0] + 4 * i, extent.hi.x);
+        store_long(hi[1] + 4 * i, extent.hi.y), store_long(hi[2] + 4 * i, extent.hi.z);
+    }
 };
 
-// All edges of four slices and the box, from plane[0] to plane[4].
+// All edges of four slices and the box.
 template <class T>
 struct EdgesInLight {
     using Four = Lanes<T>;
@@ -294,12 +313,11 @@ struct EdgesInLight {
     LongVectors<T> shift;
     Long growth, length;
 
-    [[gnu::always_inline]] EdgesInLight(ViewOfBox<T> const& seen, T const* plane) noexcept {
+    [[gnu::always_inline]] EdgesInLight(ViewOfBox<T> const& seen, Four const& begin, Four const& end) noexcept
+        : nearest(begin), farthest(end) {
         auto const all = [](T value) { return all_four(value); };
         auto const lit = [](Four const& v) { return FourVectors<T>{all_of<0>(v), all_of<1>(v), all_of<2>(v)}; };
         Vec3<T> const &right = seen.pose->right, &up = seen.pose->up, &ahead = seen.pose->forward;
-        // NOTE: one by one, as they have mostly just been written.
-        nearest = Four::of(plane[0], plane[1], plane[2], plane[3]), farthest = moved_up(nearest, plane[4]);
         begins = nearest - all(seen.slack), ends = farthest + all(seen.slack);
         cut_box_edges(seen, of_box);
         along[0] = half_of<T>(lit(seen.lit.x)), along[1] = half_of<T>(lit(seen.lit.y));
@@ -339,42 +357,65 @@ struct EdgesInLight {
     }
 
     // Planes are where they are: the box that their sides are cut by is larger.
-    [[nodiscard, gnu::always_inline]] ExtentInLanes<Long> of_sides(Long const& depth) const noexcept {
+    [[nodiscard, gnu::always_inline]] CutEdges<Long> sides_at(Long const& depth) const noexcept {
         Long first = Long::all(T(0)), last = growth * depth + length;
         side_in_x.cut(shift.x * depth, first, last);
         side_in_y.cut(shift.y * depth, first, last);
         side_in_z.cut(shift.z * depth, first, last);
-        return extent_of(from + ray * depth, along_side, first, last);
+        return {from + ray * depth, along_side, first, last};
+    }
+    // Those of slices from i on; their steps are metres of depth.
+    [[nodiscard, gnu::always_inline]] CutEdges<Long> rays_in(int i) const noexcept {
+        return {from, along_ray, largest(first_of_ray, spread<Long>(begins, i)),
+                least(last_of_ray, spread<Long>(ends, i))};
+    }
+    [[nodiscard, gnu::always_inline]] CutEdges<Long> box_edges_in(int i, int axis) const noexcept {
+        auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
+        Long const ahead = at(of_box.ahead);
+        Long const first = largest(at(of_box.first), spread<Long>(enter[axis], i) - ahead);
+        Long const last = least(at(of_box.last), spread<Long>(leave[axis], i) - ahead);
+        return {{at(of_box.x), at(of_box.y), at(of_box.z)}, along[axis], first, last};
     }
 
     // For slices from i on; the far plane of one is the near plane of the next.
     [[gnu::always_inline]] void bound(int i, ExtentInLanes<Long>& sides, ExtentsOfSlices<T>& of) const noexcept {
         ExtentInLanes<Long> extent = sides;
-        if (Long::fours > 1) extent = of_sides(spread<Long>(nearest, i));
-        sides = of_sides(spread<Long>(farthest, i));
+        if (Long::fours > 1) extent = extent_of(sides_at(spread<Long>(nearest, i)));
+        sides = extent_of(sides_at(spread<Long>(farthest, i)));
         extent.add(sides);
-        extent.add(extent_of(from, along_ray, largest(first_of_ray, spread<Long>(begins, i)),
-                             least(last_of_ray, spread<Long>(ends, i))));
-        auto const add_edges = [&](int axis) {
-            auto const at = [axis](T const* edge) { return repeated<Long>(four_at(edge + 4 * axis)); };
-            Long const ahead = at(of_box.ahead);
-            Long const first = largest(at(of_box.first), spread<Long>(enter[axis], i) - ahead);
-            Long const last = least(at(of_box.last), spread<Long>(leave[axis], i) - ahead);
-            extent.add(extent_of({at(of_box.x), at(of_box.y), at(of_box.z)}, along[axis], first, last));
-        };
-        add_edges(0), add_edges(1), add_edges(2);
-        auto const store = [i](T* to, Long const& lanes) { std::memcpy(to + 4 * i, &lanes, sizeof lanes); };
-        store(of.lo[0], extent.lo.x), store(of.lo[1], extent.lo.y), store(of.lo[2], extent.lo.z);
-        store(of.hi[0], extent.hi.x), store(of.hi[1], extent.hi.y), store(of.hi[2], extent.hi.z);
+        extent.add(extent_of(rays_in(i)));
+        extent.add(extent_of(box_edges_in(i, 0)));
+        extent.add(extent_of(box_edges_in(i, 1)));
+        extent.add(extent_of(box_edges_in(i, 2)));
+        of.store(i, extent);
     }
 };
+
+// For each slice, what is left of its four edges.
+template <class T, class Fold>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> folded(T const (&edges)[16], Fold const& fold) noexcept {
+    Lanes<T> const a = four_at(edges), b = four_at(edges + 4), c = four_at(edges + 8), d = four_at(edges + 12);
+    Lanes<T> const of_ab = fold(picked<0, 4, 1, 5>(a, b), picked<2, 6, 3, 7>(a, b));
+    Lanes<T> const of_cd = fold(picked<0, 4, 1, 5>(c, d), picked<2, 6, 3, 7>(c, d));
+    return fold(picked<0, 1, 4, 5>(of_ab, of_cd), picked<2, 3, 6, 7>(of_ab, of_cd));
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> least_of(T const (&edges)[16]) noexcept {
+    return folded(edges, [](Lanes<T> const& a, Lanes<T> const& b) { return least(a, b); });
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Lanes<T> largest_of(T const (&edges)[16]) noexcept {
+    return folded(edges, [](Lanes<T> const& a, Lanes<T> const& b) { return largest(a, b); });
+}
 
 template <class T>
 [[gnu::always_inline]] inline void bound_four_slices(ViewOfBox<T> const& seen, T const* plane,
                                                      ExtentsOfSlices<T>& of) noexcept {
     using Long = LongLanes<T>;
-    EdgesInLight<T> const edges(seen, plane);
-    ExtentInLanes<Long> sides = edges.of_sides(Long::all(plane[0]));
+    // NOTE: one by one, as they have mostly just been written.
+    Lanes<T> const begin = Lanes<T>::of(plane[0], plane[1], plane[2], plane[3]);
+    EdgesInLight<T> const edges(seen, begin, moved_up(begin, plane[4]));
+    ExtentInLanes<Long> sides = extent_of(edges.sides_at(Long::all(plane[0])));
     // NOTE: no loop: compilers would keep what it needs in registers that they have not.
     edges.bound(0, sides, of);
     if constexpr (Long::fours == 1) edges.bound(1, sides, of);

@@ -155,10 +155,10 @@ inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lan
                           Mat4<T>& clip_from_world) noexcept {
     Lanes<T> const x = seen.x * scale, y = seen.y * scale, z = seen.z * scale;
     static_assert(4 * sizeof x == sizeof clip_from_world, "columns without a gap");
-    std::memcpy(&clip_from_world[0], &x, sizeof x);
-    std::memcpy(&clip_from_world[1], &y, sizeof y);
-    std::memcpy(&clip_from_world[2], &z, sizeof z);
-    std::memcpy(&clip_from_world[3], &offset, sizeof offset);
+    std::memcpy(&clip_from_world[0].x, &x, sizeof x);
+    std::memcpy(&clip_from_world[1].x, &y, sizeof y);
+    std::memcpy(&clip_from_world[2].x, &z, sizeof z);
+    std::memcpy(&clip_from_world[3].x, &offset, sizeof offset);
 }
 
 }  // namespace detail

@@ -32,27 +32,17 @@ struct FourSlices {
     FourVectors<T>& lo;
     FourVectors<T>& hi;
 
-    // For each slice, what is left of its four edges.
-    template <class Fold>
-    [[gnu::always_inline]] static Lanes<T> folded(T const (&edges)[16], Fold const& fold) noexcept {
-        Lanes<T> const a = four_at(edges), b = four_at(edges + 4), c = four_at(edges + 8), d = four_at(edges + 12);
-        Lanes<T> const of_ab = fold(picked<0, 4, 1, 5>(a, b), picked<2, 6, 3, 7>(a, b));
-        Lanes<T> const of_cd = fold(picked<0, 4, 1, 5>(c, d), picked<2, 6, 3, 7>(c, d));
-        return fold(picked<0, 1, 4, 5>(of_ab, of_cd), picked<2, 3, 6, 7>(of_ab, of_cd));
-    }
     [[gnu::always_inline]] void operator()() const noexcept {
-        auto const smaller = [](Lanes<T> const& a, Lanes<T> const& b) { return least(a, b); };
-        auto const larger = [](Lanes<T> const& a, Lanes<T> const& b) { return largest(a, b); };
         ExtentsOfSlices<T> of;
         bound_four_slices(seen, plane, of);
         // Where there is nothing, these are numbers that no eye and no slack can move.
         Lanes<T> const least_eye = seen.lit.eye - all_four(seen.slack), most_eye = seen.lit.eye + all_four(seen.slack);
-        lo.x = folded(of.lo[0], smaller) + all_of<0>(least_eye);
-        lo.y = folded(of.lo[1], smaller) + all_of<1>(least_eye);
-        lo.z = folded(of.lo[2], smaller) + all_of<2>(least_eye);
-        hi.x = folded(of.hi[0], larger) + all_of<0>(most_eye);
-        hi.y = folded(of.hi[1], larger) + all_of<1>(most_eye);
-        hi.z = folded(of.hi[2], larger) + all_of<2>(most_eye);
+        lo.x = least_of(of.lo[0]) + all_of<0>(least_eye);
+        lo.y = least_of(of.lo[1]) + all_of<1>(least_eye);
+        lo.z = least_of(of.lo[2]) + all_of<2>(least_eye);
+        hi.x = largest_of(of.hi[0]) + all_of<0>(most_eye);
+        hi.y = largest_of(of.hi[1]) + all_of<1>(most_eye);
+        hi.z = largest_of(of.hi[2]) + all_of<2>(most_eye);
     }
 };
 

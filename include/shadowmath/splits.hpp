@@ -128,7 +128,7 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline bool four_practical_splits(T const& z_near, T const& z_far, T const& lambda,
                                                                     T (&plane)[max_splits + 1]) noexcept {
     auto const n = order_of(z_near), f = order_of(z_far), weight = order_of(lambda);
-    auto const endless = order_of(std::numeric_limits<T>::infinity()), one = order_of(T(1));
+    auto const endless = order_of(std::numeric_limits<T>::max()) + 1, one = order_of(T(1));
     if (!((n > 0) & (n < f) & (f < endless) & (weight > 0) & (weight <= one)) || !(z_near > z_far * T(0x1p-64)))
         return false;
     T const ratio = z_far / z_near, half = std::sqrt(ratio), quarter = std::sqrt(half);

@@ -23,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace shadowmath {
 inline namespace v0 {
@@ -148,9 +149,16 @@ template <class T>
 }
 
 // Mends a pose that is orthonormal to 1e-3 (float matrices that were multiplied often) to the last bit or two; the
-// forward axis keeps its direction. A worse pose comes back as it is.
+// forward axis keeps its direction. A worse pose comes back as it is, and so does one that has nothing to mend.
+// NOTE: products that depend on nothing are sooner known than roots of roots, which a processor then goes on without.
 template <class T>
 [[nodiscard]] inline Pose<T> orthonormalized(Pose<T> const& pose) noexcept {
+    Vec3<T> const &r = pose.right, &u = pose.up, &f = pose.forward;
+    auto const is = [](T value, T wanted) {
+        return std::abs(value - wanted) <= T(4) * std::numeric_limits<T>::epsilon();
+    };
+    bool const unit = is(glm::dot(r, r), T(1)) & is(glm::dot(u, u), T(1)) & is(glm::dot(f, f), T(1));
+    if (unit & is(glm::dot(r, u), T(0)) & is(glm::dot(u, f), T(0)) & is(glm::dot(f, r), T(0))) return pose;
     Normalized<T> const forward = safe_normalize(pose.forward);
     Normalized<T> const right =
         safe_normalize(pose.right - forward.direction * glm::dot(forward.direction, pose.right));

@@ -89,6 +89,7 @@ int every_overloaded_function() noexcept {
     add(depths, depths);
     SampleBounds<T> bounds = no_bounds(sample_splits(depths, 4, SampleSplits::adaptive));
     add(bounds, SampleRays<T>{}, 0, 0, T(2));
+    add_tile(bounds, SampleRays<T>{}, 0, 0, T(2), T(3));
     add(bounds, bounds);
     auto const stored_depth = [](int, int) { return T(1); };
     count += filtered(Receiver<T>{}, 16, gl_clip, FilterOptions{}, stored_depth) > T(0);
@@ -161,6 +162,7 @@ int every_function() noexcept {
     count += keep(&depth_code<T>, &decoded_depth<T>, &gpu_sample_fit<float>);
     count += keep(&texture_from_world<T>);
     count += keep(&bound_slices<T>, &fit_slice_focus<T>, &fit_slice_boxes_of<T>);
+    count += keep(&fit_slice_warps<T>);
     count += keep(&fit_slice_boxes<T>, &fit_slice_spheres<T>, &clip_points<T>, &box_at<T>, &boxes_from<T>);
     count += keep(&slice_range<T>, &slice<T>);
     count += keep(&texel_shift<T>, &shimmer_texels<T>);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. Allocations
-// are counted by the address sanitizer's own hook: it wants operator new for itself.
+// libFuzzer's way in. The environment variable SHADOWMATH_TARGET names the target; scripts/fuzz sets it. The address
+// sanitizer wants operator new for itself: allocations are then counted by its own hook.
 #include "tests/fuzz/case.hpp"
-
-#include <sanitizer/allocator_interface.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#if __has_feature(address_sanitizer)
+#include <sanitizer/allocator_interface.h>
 
 namespace {
 
@@ -26,6 +27,9 @@ void ignore_deallocation(void const volatile*) {}
 std::uint64_t shadowmath::test::allocation_count() {
     return allocations;
 }
+#else
+#include "tests/support/counted_new.hpp"
+#endif
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* bytes, std::size_t size) {
     using namespace shadowmath::fuzz;

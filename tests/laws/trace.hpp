@@ -95,11 +95,11 @@ template <class T>
         for (int s = 0; s < samples_per_pixel; ++s) {
             Vec3<Real> const at =
                 point_on(frame, quad, column, row, pixel_samples<Real>.u[s], pixel_samples<Real>.v[s]);
-            Real far = glm::length(at) + glm::length(at - frame.eye) + glm::length(frame.eye);
+            Real out_there = glm::length(at) + glm::length(at - frame.eye) + glm::length(frame.eye);
             Answer wanted = Answer::lit;
             for (test::Triangle<T> const& caster : casters) {
                 test::Triangle<Real> const t{Vec3<Real>(caster[0]), Vec3<Real>(caster[1]), Vec3<Real>(caster[2])};
-                Real reach = far;
+                Real reach = out_there;
                 for (Vec3<Real> const& p : t) reach += glm::length(p);
                 Answer const answer = meets(at, exact, t, 4 * contact_share<Real> * (1 + reach), 64 * eps * reach);
                 if (answer == Answer::dark) wanted = Answer::dark;

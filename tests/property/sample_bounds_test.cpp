@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/sample_bounds.hpp"
 #include "tests/support/sampled_scene.hpp"
+#include "tests/support/tolerance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,39 @@ TYPED_TEST(SampleBoundsProperty, TheBoxOfItsSplitHoldsEverySample) {
         auto const result = sampled(scene, count, kind, blend);
         for_each_sample(
             scene, [&](int x, int y, T depth) { RC_ASSERT(laws::is_held(result.bounds, result.rays, x, y, depth)); });
+    }));
+}
+
+// Tiles of four by four pixels, of which the bounds know the nearest and the farthest depth alone.
+TYPED_TEST(SampleBoundsProperty, TheBoxesOfATileHoldWhateverItsPixelsShow) {
+    EXPECT_TRUE(rc::check([] {
+        using T = TypeParam;
+        constexpr int side = 4;
+        ViewVolume<T> const view = *sampled_view<T>(T(100));
+        Light<T> const light = *sun<T>();
+        auto const tile_rays = sample_rays(view, light, 3, 2);
+        auto const rays = sample_rays(view, light, 3 * side, 2 * side);
+        auto bounds = no_bounds(logarithmic_splits(view.z_near, view.z_far, static_cast<int>(1 + *below(6))));
+        std::vector<std::pair<Vec3<T>, T>> seen;
+        for (int tile = 0; tile < 6; ++tile) {
+            T nearest = std::numeric_limits<T>::max(), farthest = T(0);
+            for (int pixel = 0; pixel < side * side; ++pixel) {
+                T const depth = *log_uniform<T>(view.z_near, view.z_far);
+                nearest = depth < nearest ? depth : nearest;
+                farthest = depth > farthest ? depth : farthest;
+                int const x = tile % 3 * side + pixel % side, y = tile / 3 * side + pixel / side;
+                seen.emplace_back(from_eye(rays, x, y, depth), depth);
+            }
+            add_tile(bounds, tile_rays, tile % 3, tile / 3, nearest, farthest);
+        }
+        for (auto const& [point, depth] : seen)
+            for (int i = 0; i < bounds.count; ++i) {
+                if (!is_served(bounds.range[i], depth)) continue;
+                Vec3<T> const lost(tolerance(glm::length(point), 16));
+                Aabb<T> const box{bounds.box[i].lo - lost, bounds.box[i].hi + lost};
+                RC_ASSERT(box.lo.x <= point.x && box.lo.y <= point.y && box.lo.z <= point.z);
+                RC_ASSERT(box.hi.x >= point.x && box.hi.y >= point.y && box.hi.z >= point.z);
+            }
     }));
 }
 

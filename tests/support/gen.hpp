@@ -10,7 +10,8 @@
 //   }));
 //
 // Valid inputs (view_volume, sun, spot_light, box) hold what the headers' contracts ask for, up to their edges; nasty
-// ones hold anything that fits into the type. Cases shrink toward zero, the axes and the unit box.
+// ones hold anything that fits into the type; any_ are of both kinds. Cases shrink toward zero, the axes and the unit
+// box.
 #pragma once
 
 #include "show.hpp"
@@ -223,6 +224,28 @@ rc::Gen<Light<T>> spot_light() {
         T const half_angle_radians = *log_uniform<T>(T(1.1e-3), T(1.5));
         T const range = *log_uniform<T>(T(0.1), T(1e4));
         return spot(position, axis, half_angle_radians, range);
+    });
+}
+
+// What a caller may come with: half of them valid, half with nasty numbers in them.
+template <class T>
+rc::Gen<ViewVolume<T>> any_view() {
+    return rc::gen::exec([] {
+        bool const good = *one_in(2);
+        return good ? *view_volume<T>() : *nasty_view_volume<T>();
+    });
+}
+
+// A third valid, a third made of nasty numbers, a third with nasty numbers written past the door.
+template <class T>
+rc::Gen<Light<T>> any_sun() {
+    return rc::gen::exec([] {
+        std::uint64_t const kind = *below(3);
+        if (kind == 0) return *sun<T>();
+        Vec3<T> const travel = *nasty_vec3<T>();
+        Light<T> light = directional(travel);
+        if (kind == 2) light.direction = travel;
+        return light;
     });
 }
 

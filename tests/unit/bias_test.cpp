@@ -81,7 +81,6 @@ TEST(Slope, OfAPlaneThatTheLightGrazesIsTheLimit) {
 
 TEST(Slope, WithoutANormalOrAMapIsZero) {
     Overhead const overhead;
-    Vec3<double> const up(0, 1, 0);
     for (auto const& s :
          {slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0), 1.0),
           slope(overhead.map, 0, Vec3<double>(0), Vec3<double>(1, 1, 1), 1.0),

@@ -93,8 +93,8 @@ TEST(Penumbra, OfAMapHasNoKernelWithoutAMapAPlaceOrAGap) {
 
 TEST(Penumbra, OfALampBeyondAllNumbersHasNoMetres) {
     float const most = std::numeric_limits<float>::max();
-    Light<float> const lamp = spot(Vec3<float>(most), Vec3<float>(0, -1, 0), 0.5f, 10.0f);
-    EXPECT_EQ(metres_of_gap(lamp, Vec3<float>(-most), 1.0f), 0.0f);
+    Light<float> const far_lamp = spot(Vec3<float>(most), Vec3<float>(0, -1, 0), 0.5f, 10.0f);
+    EXPECT_EQ(metres_of_gap(far_lamp, Vec3<float>(-most), 1.0f), 0.0f);
     Light<double> const sun = directional(Vec3<double>(0, -1, 0));
     ShadowMap<double> map;
     map.clip_from_world = clip_from_world(LightBox<double>{}, map.clip);

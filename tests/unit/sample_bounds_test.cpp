@@ -73,6 +73,21 @@ TYPED_TEST(SampleBoundsOf, WhatIsNotSeenIsLeftOut) {
     EXPECT_EQ(none.count, 0);
 }
 
+TYPED_TEST(SampleBoundsOf, OfATileThatIsNoneNothingIsTakenIn) {
+    using T = TypeParam;
+    auto const rays = sample_rays(looking_ahead<T>(), Light<T>{}, 4, 4);
+    T const nan = std::numeric_limits<T>::quiet_NaN(), infinite = std::numeric_limits<T>::infinity();
+    auto bounds = no_bounds(logarithmic_splits(T(1), T(100), 2));
+    add_tile(bounds, rays, 1, 1, T(5), T(4));
+    add_tile(bounds, rays, 1, 1, nan, T(4));
+    add_tile(bounds, rays, 1, 1, T(4), infinite);
+    add_tile(bounds, rays, 1, 1, T(200), T(300));
+    for (int i = 0; i < bounds.count; ++i) EXPECT_TRUE(is_empty(bounds.box[i]));
+    add_tile(bounds, rays, 1, 1, T(2), T(3));
+    EXPECT_FALSE(is_empty(bounds.box[0]));
+    EXPECT_TRUE(is_empty(bounds.box[1]));
+}
+
 TYPED_TEST(SampleBoundsOf, ViewsAndLightsWithFaultsGiveNoRays) {
     using T = TypeParam;
     ViewVolume<T> view = looking_ahead<T>();

@@ -43,9 +43,9 @@ protected:
         return result.masks;
     }
     static std::vector<Triangle<Number>> quad(Point a, Point b, Point c, Point d) { return {{a, b, c}, {a, c, d}}; }
-    static std::vector<Triangle<Number>> roof(Number height, Number half) {
-        return quad(Point(-half, height, -half), Point(half, height, -half), Point(half, height, half),
-                    Point(-half, height, half));
+    static std::vector<Triangle<Number>> roof(Number level, Number half) {
+        return quad(Point(-half, level, -half), Point(half, level, -half), Point(half, level, half),
+                    Point(-half, level, half));
     }
     static std::size_t dark_samples(std::vector<std::uint32_t> const& masks) {
         std::size_t count = 0;
