@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs tests with one mutant chosen: MUTANT is its number. With MUTANTS_REACHED set to a file's name, writes there which
-// mutants each test reaches, one line a test: whether it passed, its name, its milliseconds, then the numbers; a minus sign before those
-// that have no change for the types they met.
+// Runs tests with one mutant chosen: MUTANT is its number. With MUTANTS_REACHED set to a file's name, writes there
+// which mutants each test reaches, one line a test: whether it passed, its name, its milliseconds, then the numbers; a
+// minus sign before those that have no change for the types they met.
 
 #include "tests/mutants/mutants.hpp"
 #include "tests/support/counted_new.hpp"

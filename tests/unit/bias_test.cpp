@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -258,7 +259,7 @@ TEST(SpannedByTexel, IsThatOfTheShortestTexelAlongTheAxis) {
 TEST(BiasFor, SlopesOfAWarpLeanAsMuchAsTheWorseOfItsEnds) {
     // Depth leans by 0.05 a metre at its near end, and by 0.05 - 0.1 at its far one.
     Overhead overhead;
-    overhead.map.clip_from_world = from_rows(Vec4<double>(0, 0, 0.1, 0), Vec4<double>(0.1, 0, 0, 0),
+    overhead.map.clip_from_world = from_rows(Vec4<double>(0, 0, 0.1, 0), Vec4<double>(0.3, 0, 0, 0),
                                              Vec4<double>(0.05, -0.02, 0, 0.5), Vec4<double>(0.1, 0, 0, 1));
     overhead.map.clip = gl_zero_to_one_clip;
     BiasOptions<double> options = nothing();
@@ -266,4 +267,105 @@ TEST(BiasFor, SlopesOfAWarpLeanAsMuchAsTheWorseOfItsEnds) {
     Mat4<double> const canonical = canonical_from_clip<double>(overhead.map.clip) * overhead.map.clip_from_world;
     EXPECT_NEAR(bias_for(overhead.map, overhead.light, 100, options).slope_limit,
                 detail::steepest_texel(canonical, 100, 0.05) * detail::worst_shear(canonical), 1e-12);
+}
+
+TEST(NormalOffset, OfAPlainMapIsTheKernelsReachTimesTheSine) {
+    double const nan = std::numeric_limits<double>::quiet_NaN(), reach = 1.5 * std::sqrt(2.0) * 0.1;
+    Vec3<double> const up(0, 1, 0), aside(1, 0, 0);
+    EXPECT_NEAR(normal_offset_metres(0.1, 1, up, aside), reach, 1e-15);
+    EXPECT_NEAR(normal_offset_metres(0.1, 1, up, Vec3<double>(0.6, 0.8, 0)), reach * 0.6, 1e-15);
+    EXPECT_NEAR(normal_offset_metres(0.1, 1, up * 3.0, aside), reach, 1e-15) << "a sine is at most 1";
+    EXPECT_EQ(normal_offset_metres(0.1, 1, Vec3<double>(nan), aside), 0.0);
+    EXPECT_EQ(normal_offset_metres(0.1, 1, up, Vec3<double>(nan)), 0.0);
+    EXPECT_EQ(normal_offset_metres(nan, 1, up, aside), 0.0);
+    EXPECT_EQ(normal_offset_metres(-0.1, 1, up, aside), 0.0);
+    EXPECT_EQ(normal_offset_metres(std::numeric_limits<double>::max(), 9, up, aside), 0.0) << "more than all numbers";
+}
+
+TEST(NormalOffsetAt, OfASpotIsTheShareOfTheWayThatBringsThePlaneBeforeItsTexels) {
+    // Off the origin: what counts is the distance to the lamp.
+    Vec3<double> const place(3, 4, 5);
+    Light<double> const lamp = spot(place, Vec3<double>(0, -1, 0), 0.5, 10.0);
+    ShadowMap<double> map = spot_map(1, 10);
+    for (int column = 0; column < 3; ++column) map.clip_from_world[3] -= map.clip_from_world[column] * place[column];
+    Vec3<double> const point = place + Vec3<double>(0.5, -4, 0.3), normal = glm::normalize(Vec3<double>(0.6, 1, -0.2));
+    DepthSlope<double> const s = slope(map, 100, point, normal, 1e6);
+    double const needed = 1.5 * (std::abs(s.x) + std::abs(s.y)) / depth_gain(map, lamp), raised = needed * 4;
+    double const distance = glm::length(point - place), cosine = glm::dot(normal, (place - point) / distance);
+    double const wanted = cosine * distance * raised / (1 + raised);
+    EXPECT_NEAR(normal_offset_at(map, lamp, 100, 1, point, normal, 9.0), wanted, 1e-12);
+    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, normal, wanted / 2), wanted / 2);
+    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, -normal, 9.0), 0.0) << "faces away";
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, place + Vec3<double>(0, 4, 0), normal, 9.0), 0.0) << "behind";
+    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, Vec3<double>(nan), 9.0), 0.0);
+    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, normal, nan), 0.0);
+    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, normal, -1.0), 0.0);
+}
+
+TEST(WorstShear, IsThatOfTheWorstCorner) {
+    // At (x, y) the axes run along X - x W and Y - y W; here they cross at the least angle where x and y are 1 or -1.
+    for (double const sign : {-1.0, 1.0}) {
+        Mat4<double> const warp = from_rows(Vec4<double>(1, 0, 0, 0), Vec4<double>(0, 1, 0, 0),
+                                            Vec4<double>(0, 0, 1, 0), Vec4<double>(0.3 * sign, 0.4 * sign, 0, 1));
+        double worst = 1;
+        for (double const x : {-1.0, 1.0})
+            for (double const y : {-1.0, 1.0}) {
+                Vec3<double> const a = glm::normalize(Vec3<double>(1 - x * 0.3 * sign, -x * 0.4 * sign, 0));
+                Vec3<double> const b = glm::normalize(Vec3<double>(-y * 0.3 * sign, 1 - y * 0.4 * sign, 0));
+                worst = std::max(worst, 1 / glm::length(glm::cross(a, b)));
+            }
+        EXPECT_NEAR(detail::worst_shear(warp), worst, 1e-14);
+        EXPECT_GT(worst, 1.1);
+    }
+}
+
+TEST(EndsOfAxis, AreOneOverTheDistancesOfNearAndFar) {
+    Light<double> const lamp = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    ShadowMap<double> map = spot_map(2, 10);
+    for (double const scale : {1.0, 3.0}) {  // w is then three times the distance
+        Mat4<double> const canonical = map.clip_from_world * scale;
+        map.clip_from_world = canonical;
+        auto const ends = detail::ends_of_axis(canonical, lamp, depth_gain(map, lamp));
+        EXPECT_NEAR(ends.nearest, 1 / (2 * scale), 1e-14);
+        EXPECT_NEAR(ends.farthest, 1 / (10 * scale), 1e-14);
+        BiasOptions<double> options = nothing();
+        MapBias<double> const none = bias_for(map, lamp, 100, options);
+        options.flat_texels = 2;
+        MapBias<double> const bias = bias_for(map, lamp, 100, options);
+        options.flat_texels = 0;
+        options.metres = 0.01;
+        MapBias<double> const metres = bias_for(map, lamp, 100, options);
+        // Depth is f / (f - n) (1 - n / d).
+        for (double const d : {2.0, 10.0}) {
+            double const per_metre = 10.0 * 2.0 / (8 * d * d);
+            EXPECT_NEAR(depth_bias(metres, d * scale, {}) - depth_bias(none, d * scale, {}), 0.01 * per_metre, 1e-12);
+            EXPECT_NEAR(depth_bias(bias, d * scale, {}) - depth_bias(none, d * scale, {}),
+                        2 * (2 * d * std::tan(0.5) / 100) * per_metre, 1e-12);
+        }
+    }
+}
+
+TEST(DepthGain, OfAMapThatIsNoNumberIsZero) {
+    Overhead overhead;
+    overhead.map.clip_from_world[1][2] = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(depth_gain(overhead.map, overhead.light), 0.0);
+}
+
+TEST(Slope, KnowsAMapOfOneTexel) {
+    Overhead const overhead;
+    EXPECT_NEAR(slope(overhead.map, 1, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0).x, -0.5 * 10 / 40,
+                1e-14);
+}
+
+TEST(BiasFor, OptionsThatAreNoNumbersCountAsNone) {
+    Overhead const overhead;
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    BiasOptions<double> options = nothing();
+    MapBias<double> const none = bias_for(overhead.map, overhead.light, 100, options);
+    options.depth_step = options.metres = options.flat_texels = options.texels = nan;
+    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
+    EXPECT_EQ(bias.constant, none.constant);
+    EXPECT_EQ(bias.slope_texels, none.slope_texels);
+    EXPECT_EQ(bias_at(overhead.map, overhead.light, 100, options, Vec3<double>(0)).constant, none.constant);
 }
