@@ -24,7 +24,7 @@ enum class Aim : std::uint8_t {
 struct Found {
     std::vector<Quad<double>> maps;  // finest first
     double mean = 0.0, p95 = 0.0;    // eye pixels a texel, over all pixels; those in no map are left out
-    double unmapped = 0.0;  // share of pixels
+    double unmapped = 0.0;           // share of pixels
 };
 
 struct SearchEffort {

@@ -249,7 +249,8 @@ inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) n
     // Where two neighbouring sides meet: half a right angle apart, so the determinant is its sine.
     for (unsigned d = 0; d < sides; ++d) {
         unsigned const e = (d + 1) % sides;
-        piece.point[d] = Vec2<T>(reach[d] * way[e].y - reach[e] * way[d].y, reach[e] * way[d].x - reach[d] * way[e].x) / half;
+        piece.point[d] =
+            Vec2<T>(reach[d] * way[e].y - reach[e] * way[d].y, reach[e] * way[d].x - reach[d] * way[e].x) / half;
     }
 }
 
