@@ -69,8 +69,8 @@ struct DepthsOfEdges {
 // box will do, however large; the volume must be finite. Not visible where they do not meet.
 //
 // The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
-// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them is
-// one piece: near and far end only cut it off.
+// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
+// is one piece: near and far end only cut it off.
 template <class T>
 [[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
     using Lanes = detail::Lanes<T>;
