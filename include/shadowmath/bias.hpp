@@ -129,6 +129,7 @@ struct BiasOptions {
 // The bias of one shader invocation: `w` is the receiver's clip w, `at_receiver` its slope.
 template <class T>
 [[nodiscard]] inline T depth_bias(MapBias<T> const& bias, T w, DepthSlope<T> const& at_receiver) noexcept {
+    if (w == T(0)) return T(0);
     T const amount = bias.constant + bias.per_inverse_w / w +
                      bias.slope_texels * (std::abs(at_receiver.x) + std::abs(at_receiver.y));
     return all_finite(&amount, 1) && amount > T(0) ? amount : T(0);

@@ -69,8 +69,8 @@ struct DepthsOfEdges {
 // box will do, however large; the volume must be finite. Not visible where they do not meet.
 //
 // The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
-// enter and leave, or where the corner edges of the sides enter and leave the box. What lies between them is one piece:
-// near and far end only cut it off.
+// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
+// is one piece: near and far end only cut it off.
 template <class T>
 [[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
     using Lanes = detail::Lanes<T>;
@@ -145,6 +145,11 @@ template <class T>
     for (int i = 1; i < 4; ++i) {
         lo = depths.lo[i] < lo ? depths.lo[i] : lo;
         hi = depths.hi[i] > hi ? depths.hi[i] : hi;
+    }
+    // The eye, where the sides of a perspective meet: a flat box through it holds that and none of their edges.
+    if (!flat && contains(Aabb<T>{body.lo - rounding, body.hi + rounding}, pose.position)) {
+        lo = std::fmin(lo, T(0));
+        hi = std::fmax(hi, T(0));
     }
     if (!(lo <= hi)) return {};
     DepthRange<T> const range{std::fmax(lo - rounding, volume.z_near), std::fmin(hi + rounding, volume.z_far), true};

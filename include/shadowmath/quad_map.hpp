@@ -131,7 +131,9 @@ struct QuadGain {
 template <class T>
 [[nodiscard]] inline QuadGain<T> gain_at(Quad<T> const& quad, T usable_texels, Vec2<T> const& place) noexcept {
     Vec3<T> const p(place, T(1));
-    T const w = glm::dot(quad.w, p), scale = usable_texels * T(0.5) / w;
+    T const w = glm::dot(quad.w, p);
+    if (w == T(0)) return {};  // at its horizon
+    T const scale = usable_texels * T(0.5) / w;
     T const x = glm::dot(quad.x, p) / w, y = glm::dot(quad.y, p) / w;
     return {Vec2<T>(quad.x.x - x * quad.w.x, quad.y.x - y * quad.w.x) * scale,
             Vec2<T>(quad.x.y - x * quad.w.y, quad.y.y - y * quad.w.y) * scale};

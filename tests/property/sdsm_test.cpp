@@ -43,9 +43,10 @@ TYPED_TEST(SdsmProperty, EverySampleIsInsideItsMapMarginIncluded) {
         SampledScene<T> const scene = *sampled_scene<T>(T(100));
         SampleFitOptions<T> const options = drawn_options<T>();
         int const count = static_cast<int>(1 + *below(6));
-        auto const [depths, rays, bounds] = sampled(scene, count, drawn_kind(), T(0.1));
-        auto const cascades = fit_samples(rays, bounds, everything<T>(), options);
-        for_each_sample(scene, [&, &rays = rays](int x, int y, T depth) {
+        Sampled<T> const all = sampled(scene, count, drawn_kind(), T(0.1));
+        SampleRays<T> const& rays = all.rays;
+        auto const cascades = fit_samples(rays, all.bounds, everything<T>(), options);
+        for_each_sample(scene, [&](int x, int y, T depth) {
             Vec3<T> const point = from_eye(rays, x, y, depth);
             // Coordinates from the world's origin, the axes back from light space, and the rows of the map: 4 each.
             T const lost = tolerance(T(2) * glm::length(rays.eye) + T(2) * glm::length(point), 16);
@@ -125,14 +126,15 @@ TYPED_TEST(SdsmProperty, NoCasterBeforeASampleIsCutOff) {
         SampleFitOptions<T> options = drawn_options<T>();
         options.pancake = false;
         options.clip = ClipSpace{};
-        auto const [depths, rays, bounds] = sampled(scene, 3, drawn_kind());
+        Sampled<T> const all = sampled(scene, 3, drawn_kind());
+        SampleRays<T> const& rays = all.rays;
         T const above = *log_uniform<T>(T(0.01), T(100));
         Vec3<T> const half = Vec3<T>(*log_uniform<T>(T(0.01), T(10)));
-        for_each_sample(scene, [&, &rays = rays, &bounds = bounds](int x, int y, T depth) {
+        for_each_sample(scene, [&](int x, int y, T depth) {
             // A box around a point on the sample's way to the light.
             Vec3<T> const point = from_eye(rays, x, y, depth) + rays.eye - Vec3<T>(T(0), T(0), above);
             Vec3<T> const world = rays.basis.x * point.x + rays.basis.y * point.y + rays.basis.depth * point.z;
-            auto const cascades = fit_samples(rays, bounds, Aabb<T>{world - half, world + half}, options);
+            auto const cascades = fit_samples(rays, all.bounds, Aabb<T>{world - half, world + half}, options);
             for (Cascade<T> const& cascade : cascades) {
                 if (!is_served(cascade.range, depth)) continue;
                 RC_ASSERT(cascade.map.visible);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/bias.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/light_box.hpp>
 #include <shadowmath/view_volume.hpp>
@@ -102,6 +103,17 @@ TEST(DepthShift, OfASpotFollowsItsPerspective) {
     double const wanted = 10.0 / 9 * (1 / 7.5 - 1 / 8.0);
     EXPECT_NEAR(depth_shift(spot_map(1, 10), light, Vec3<double>(0, -8, 0), 0.5), wanted, 1e-14);
     EXPECT_EQ(depth_shift(spot_map(1, 10), light, Vec3<double>(0, 8, 0), 0.5), 0.0) << "behind the light";
+}
+
+TEST(DepthBias, AtNoDistanceFromALampIsNothingAndRaisesNoFlag) {
+    MapBias<float> bias;
+    bias.per_inverse_w = 0.25f;
+    for (float const w : {0.0f, -0.0f}) {
+        auto const amount = test::watched([&] { return depth_bias(bias, w, {}); });
+        EXPECT_EQ(amount.result, 0.0f);
+        EXPECT_EQ(amount.raised, 0);
+    }
+    EXPECT_EQ(depth_bias(bias, 0.5f, {}), 0.5f);
 }
 
 TEST(BiasFor, MetresOfAPlainMapAreAConstantShareOfItsDepth) {

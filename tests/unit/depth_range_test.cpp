@@ -123,6 +123,21 @@ TYPED_TEST(DepthRangeOf, AFacePiercedInItsMiddleIsTheNearestWhicheverAxisItIsOf)
         }
 }
 
+TYPED_TEST(DepthRangeOf, AFlatBoxThroughTheEyeIsSeenFromTheNearEndOn) {
+    using T = TypeParam;
+    Vec3<T> const eye(T(-3.1764705898240208626L));
+    ViewVolume<T> view;
+    view.pose = pose_looking(eye, Vec3<T>(-1), Vec3<T>(1, 0, 0));
+    view.right = view.top = T(1.1552941174246371681L);
+    view.left = view.bottom = -view.right;
+    view.z_near = T(1.75), view.z_far = T(12);
+    Aabb<T> const box{Vec3<T>(eye.x, T(-6.3629411796480415L), T(-6.3629411796480415L)),
+                      Vec3<T>(eye.x, T(0.00999999999999978684L), T(0.00999999999999978684L))};
+    EXPECT_EQ(depths_inside(box, view).lo, view.z_near);
+    auto const eps = static_cast<long double>(std::numeric_limits<T>::epsilon());
+    EXPECT_TRUE(laws::finds_the_common_depths(box, view, 1000.0L * 150.0L * eps));
+}
+
 TYPED_TEST(DepthRangeOf, NothingToSeeIsNotVisible) {
     using T = TypeParam;
     T const nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();

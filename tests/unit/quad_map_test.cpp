@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/quad_map.hpp"
 #include "tests/laws/shadow_map.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/bias.hpp>
 #include <shadowmath/quad_map.hpp>
@@ -134,4 +135,16 @@ TEST(QuadMap, APlaneInAShearedMapKeepsItsSlope) {
     DepthSlope<double> const whole = slope(map, 1024, V3(0), steep, 1.0);
     EXPECT_EQ(believed.x, whole.x);
     EXPECT_EQ(believed.y, whole.y);
+}
+
+TEST(QuadGain, AtItsHorizonIsNoneAndRaisesNoFlag) {
+    Quad<double> quad;
+    quad.x = V3(1, 0, 0);
+    quad.y = V3(0, 1, 0);
+    quad.w = V3(0, 1, 0);
+    auto const there = test::watched([&] { return gain_at(quad, 1000.0, V2(0.5, 0.0)); });
+    EXPECT_EQ(there.raised, 0);
+    EXPECT_EQ(there.result.x, V2(0.0));
+    EXPECT_EQ(there.result.y, V2(0.0));
+    EXPECT_EQ(gain_at(quad, 1000.0, V2(0.5, 1.0)).x, V2(500.0, 0.0));
 }
