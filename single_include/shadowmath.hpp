@@ -3085,8 +3085,8 @@ struct DepthsOfEdges {
 // box will do, however large; the volume must be finite. Not visible where they do not meet.
 //
 // The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
-// enter and leave, or where the corner edges of the sides enter and leave the box. What lies between them is one piece:
-// near and far end only cut it off.
+// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
+// is one piece: near and far end only cut it off.
 template <class T>
 [[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
     using Lanes = detail::Lanes<T>;
@@ -3161,6 +3161,11 @@ template <class T>
     for (int i = 1; i < 4; ++i) {
         lo = depths.lo[i] < lo ? depths.lo[i] : lo;
         hi = depths.hi[i] > hi ? depths.hi[i] : hi;
+    }
+    // The eye, where the sides of a perspective meet: a flat box through it holds that and none of their edges.
+    if (!flat && contains(Aabb<T>{body.lo - rounding, body.hi + rounding}, pose.position)) {
+        lo = std::fmin(lo, T(0));
+        hi = std::fmax(hi, T(0));
     }
     if (!(lo <= hi)) return {};
     DepthRange<T> const range{std::fmax(lo - rounding, volume.z_near), std::fmin(hi + rounding, volume.z_far), true};
@@ -7682,6 +7687,7 @@ struct BiasOptions {
 // The bias of one shader invocation: `w` is the receiver's clip w, `at_receiver` its slope.
 template <class T>
 [[nodiscard]] inline T depth_bias(MapBias<T> const& bias, T w, DepthSlope<T> const& at_receiver) noexcept {
+    if (w == T(0)) return T(0);
     T const amount = bias.constant + bias.per_inverse_w / w +
                      bias.slope_texels * (std::abs(at_receiver.x) + std::abs(at_receiver.y));
     return all_finite(&amount, 1) && amount > T(0) ? amount : T(0);
@@ -8555,7 +8561,9 @@ struct QuadGain {
 template <class T>
 [[nodiscard]] inline QuadGain<T> gain_at(Quad<T> const& quad, T usable_texels, Vec2<T> const& place) noexcept {
     Vec3<T> const p(place, T(1));
-    T const w = glm::dot(quad.w, p), scale = usable_texels * T(0.5) / w;
+    T const w = glm::dot(quad.w, p);
+    if (w == T(0)) return {};  // at its horizon
+    T const scale = usable_texels * T(0.5) / w;
     T const x = glm::dot(quad.x, p) / w, y = glm::dot(quad.y, p) / w;
     return {Vec2<T>(quad.x.x - x * quad.w.x, quad.y.x - y * quad.w.x) * scale,
             Vec2<T>(quad.x.y - x * quad.w.y, quad.y.y - y * quad.w.y) * scale};
