@@ -215,7 +215,7 @@ struct FourWarps {
             BeyondReach<T> infinite;
             for (int column = 0; column < 4; ++column) {
                 static_assert(sizeof columns[0][0] == sizeof maps[0]->clip_from_world[0], "columns without a gap");
-                std::memcpy(&maps[i]->clip_from_world[column], &columns[column][i], sizeof columns[0][0]);
+                std::memcpy(&maps[i]->clip_from_world[column].x, &columns[column][i], sizeof columns[0][0]);
                 infinite.look_for_finite(columns[column][i]);
             }
             finite[i] = !infinite.any();

@@ -25,12 +25,19 @@
 
 namespace shadowmath::fuzz {
 
-// -ffast-math promises neither the last bits, nor flags (it divides before it asks whether it should), nor anything of
-// what overflows on the way from finite numbers.
+// -ffast-math promises neither the last bits nor flags (it divides before it asks whether it should).
 #if defined(__FAST_MATH__)
 inline constexpr bool fast_math = true;
 #else
 inline constexpr bool fast_math = false;
+#endif
+
+// Nor, by a clang newer than 14, anything of what overflows on the way from finite numbers: it takes the question
+// whether it did for answered.
+#if defined(__FAST_MATH__) && defined(__clang_major__) && __clang_major__ > 14
+inline constexpr bool overflow_unseen = true;
+#else
+inline constexpr bool overflow_unseen = false;
 #endif
 
 enum class Numbers : std::uint8_t { any, finite };

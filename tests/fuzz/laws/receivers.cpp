@@ -42,7 +42,7 @@ void try_receivers(Case& c) {
 
     MapBias<T> const bias = c.call([&] { return bias_for(map, light, map_size, options); });
     MapBias<T> const bias_here = c.call([&] { return bias_at(map, light, map_size, options, point); });
-    c.require(fast_math || (laws::is_harmless(bias) && laws::is_harmless(bias_here)), "bias is finite");
+    c.require(overflow_unseen || (laws::is_harmless(bias) && laws::is_harmless(bias_here)), "bias is finite");
     Footprint<T> const texel = c.call([&] {
         return footprint(eye.clip_from_world, Vec2<T>(T(800), T(600)), map.clip_from_world, T(map_size), point, normal);
     });
@@ -55,7 +55,8 @@ void try_receivers(Case& c) {
     T const error = c.call([&] { return light_error_radians(map, light, point); });
     c.require(laws::is_ray(ray) && laws::is_angle(error), "a ray is a unit direction or none");
     TexelShift<T> const shift = c.call([&] { return texel_shift(map, eye, map_size, point); });
-    c.require(fast_math || laws::is_texel_shift(shift), "what is left beside whole texels is at most half of one");
+    c.require(overflow_unseen || laws::is_texel_shift(shift),
+              "what is left beside whole texels is at most half of one");
     T const stored = c.number<T>();
     FilterOptions const filter{c.below(6) - 1, c.one_in(2)};
     T const lit = c.call(
