@@ -3,9 +3,9 @@
 #include "tests/support/watched.hpp"
 
 #include <gtest/gtest.h>
-#include <limits>
 
 #include <cmath>
+#include <limits>
 
 using namespace shadowmath;
 
