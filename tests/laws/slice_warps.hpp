@@ -68,7 +68,9 @@ template <class T>
                     });
     for (auto const& [wide, tight] : {std::pair(wider_x, x), std::pair(wider_y, y), std::pair(wider_depth, depth)})
         metres = std::max(metres, std::max(tight.lo - wide.lo, wide.hi - tight.hi));
-    Real const narrow = std::min(x.hi - x.lo, y.hi - y.lo), nearest = std::max(depth.lo, exact.z_far / (1 << 20));
+    // Of a body that is flat or a point nothing can be said: what it allows is too much to compare.
+    Real const narrow = std::max(std::min(x.hi - x.lo, y.hi - y.lo), 1e-30L);
+    Real const nearest = std::max(depth.lo, exact.z_far / (1 << 20));
     Real const grows = exact.kind == ViewKind::perspective ? 1 + (y.hi - y.lo) * axes.sine / nearest : 1;
     found.allowed = 4 * metres * (2 / narrow * grows + axes.sine / nearest * grows);
     return found;

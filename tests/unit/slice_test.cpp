@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/slice.hpp"
+#include "tests/support/watched.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
 
 using namespace shadowmath;
 
@@ -44,4 +48,18 @@ TEST(Slice, OfAnEndlessViewIsFinite) {
     ViewVolume<double> const part = slice(view, slice_range(three_splits(), 2));
     EXPECT_EQ(part.z_far, 70.0);
     for (glm::dvec3 const& corner : corners(part)) EXPECT_TRUE(all_finite(corner));
+}
+
+TEST(Slice, OfPlanesFartherApartThanTheirTypeReachesIsCalm) {
+    float const most = std::numeric_limits<float>::max();
+    Splits<float> splits = practical_splits(0.1f, 1e31f, 3);
+    for (float const plane : {-most, most}) {
+        splits.plane[1] = plane, splits.plane[2] = -plane;
+        for (float const blend : {0.0f, 0.5f, 1.0f})
+            for (int i = 0; i < 3; ++i) {
+                auto const made = shadowmath::test::watched([&] { return slice_range(splits, i, blend); });
+                EXPECT_TRUE(made.calm()) << plane << " " << blend << " " << i;
+                EXPECT_TRUE(std::isfinite(made.result.begin) && std::isfinite(made.result.blend_begin));
+            }
+    }
 }
