@@ -1192,8 +1192,9 @@ namespace detail {
 // Where the last `share` of [begin, end] starts; never before begin, however the product rounds.
 template <class T>
 [[nodiscard]] inline T fade_begin(T begin, T end, T share) noexcept {
-    T const at = end - share * (end - begin);
-    return at > begin ? at : begin;
+    // By halves, whose difference no type is too narrow for.
+    T const at = end - T(2) * (share * (end * T(0.5) - begin * T(0.5)));
+    return at > begin && at <= end ? at : begin;
 }
 
 }  // namespace detail

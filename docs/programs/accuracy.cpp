@@ -192,7 +192,7 @@ std::vector<Row> const rows = {
          return texels_apart(first_cascade<float>(c, sm::CascadeFit::stable),
                              first_cascade<Exact>(c, sm::CascadeFit::stable), c, true);
      }},
-    {"`simple_perspective_map`: place of a point", "texels of 2048",
+    {"`fit_cascades`, warped: place of a point", "texels of 2048",
      [](Case const& c) {
          return texels_apart(first_cascade<float>(c, sm::CascadeFit::warped),
                              first_cascade<Exact>(c, sm::CascadeFit::warped), c);
