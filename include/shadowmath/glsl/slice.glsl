@@ -9,8 +9,8 @@ const int sm_max_splits = 16;
 
 // Where the last `share` of [begin, end] starts; never before begin.
 float sm_fade_begin(float begin, float end, float share) {
-    precise float at = end - share * (end - begin);
-    return at > begin ? at : begin;
+    precise float at = end - 2.0 * (share * (end * 0.5 - begin * 0.5));
+    return at > begin && at <= end ? at : begin;
 }
 
 #endif
