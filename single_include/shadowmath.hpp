@@ -805,6 +805,24 @@ template <class T>
     return mended;
 }
 
+namespace detail {
+
+// In the unit of the sides, of a view without faults.
+template <class T>
+[[nodiscard]] inline T largest_side(ViewVolume<T> const& view) noexcept {
+    auto const more = [](T a, T b) { return a > b ? a : b; };
+    return more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
+}
+
+// Nothing that it sees is farther aside than `farthest` metres, which is what its far end says.
+template <class T>
+[[nodiscard]] inline bool sides_are_within(ViewVolume<T> const& view, T farthest) noexcept {
+    T const spread = view.kind == ViewKind::perspective && view.z_far > T(1) ? view.z_far : T(1);
+    return largest_side(view) <= farthest / spread;
+}
+
+}  // namespace detail
+
 // The point seen at `side_x`, `side_y` (in the unit of the sides) and `depth` metres along the view.
 template <class T>
 [[nodiscard]] inline Vec3<T> point_at(ViewVolume<T> const& view, T side_x, T side_y, T depth) noexcept {
@@ -1308,8 +1326,7 @@ struct BallInView {
 template <class T>
 [[nodiscard]] inline BallInView<T> ball_in_view(ViewVolume<T> const& slice) noexcept {
     bool const flat = slice.kind == ViewKind::orthographic;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const side = largest_side(slice);
     T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
     Sphere<T> ball;
     if (flat) {
@@ -1338,8 +1355,7 @@ template <class T>
     if (faults_of(slice).any() || is_positive_infinity(&slice.z_far)) return {};
     bool const flat = slice.kind == ViewKind::orthographic;
     Vec3<T> const &p = slice.pose.position, &f = slice.pose.forward, &r = slice.pose.right, &u = slice.pose.up;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const side = detail::largest_side(slice);
     if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) ||
         !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
         (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))
@@ -1740,9 +1756,7 @@ template <class T>
 // As bounding_sphere asks of a slice.
 template <class T>
 [[nodiscard]] inline bool ball_in_reach(ViewVolume<T> const& view, T farthest) noexcept {
-    auto const more = [](T a, T b) { return a > b ? a : b; };
-    T const side =
-        more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
+    T const side = largest_side(view);
     return view.kind == ViewKind::orthographic || (side <= T(1e9) && side * farthest <= farthest_metres<T>);
 }
 
@@ -4287,11 +4301,7 @@ template <class T>
                         !is_positive_infinity(&slice.z_far) && all_finite(casters) && all_finite(receivers) &&
                         !is_empty(casters) && !is_empty(receivers);
     if (!usable) return focus;
-    bool const flat = slice.kind == ViewKind::orthographic;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
-    T const spread = flat ? T(1) : slice.z_far;
-    if (!(side <= farthest / std::fmax(spread, T(1))) || !(slice.z_far <= farthest) ||
+    if (!detail::sides_are_within(slice, farthest) || !(slice.z_far <= farthest) ||
         !(detail::largest_of(slice.pose.position) <= farthest))
         return focus;
     Vec3<T> const eye = slice.pose.position, travel = light.direction;
@@ -4524,11 +4534,7 @@ template <class T>
         door.stop = !(door.view.z_near < door.view.z_far);
     }
     // Nor one that is seen at its sides.
-    ViewVolume<T> const& seen = door.view;
-    T const spread = seen.kind == ViewKind::perspective ? glm::max(seen.z_far, T(1)) : T(1);
-    T const side = glm::max(glm::max(std::abs(seen.left), std::abs(seen.right)),
-                            glm::max(std::abs(seen.bottom), std::abs(seen.top)));
-    if (!(side <= farthest / spread)) {
+    if (!detail::sides_are_within(door.view, farthest)) {
         door.faults |= Fault::precision_lost;
         door.stop = true;
     }
@@ -6285,6 +6291,11 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
+template <class T>
+[[nodiscard]] inline T strength_of(CascadeOptions<T> const& options, int map) noexcept {
+    return options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(map)]);
+}
+
 // All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is
 // mended.
 template <class T>
@@ -6299,7 +6310,7 @@ template <class T>
     for (int i = 0; i < count; ++i) {
         Cascade<T>& cascade = cascades.at[first + i];
         ranges[i] = cascade.range, maps[i] = &cascade.map;
-        strengths[i] = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(first + i)]);
+        strengths[i] = strength_of(options, first + i);
         in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
     }
     if (!in_range) return false;
@@ -6361,22 +6372,20 @@ template <class T>
         if (detail::fit_warps(cascades, steady, seen, light, casters, receivers, margin_texels, options))
             alone = steady;
     }
-    for (int i = 0; i < splits.count; ++i) {
+    for (int i = 0; i < alone; ++i) {
         Cascade<T>& cascade = cascades.at[i];
         ViewVolume<T> const part = slice(seen, cascade.range);
-        if (i >= alone) {
-            // Made already.
-        } else if (light.kind == LightKind::directional) {
+        if (light.kind == LightKind::directional) {
             Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
             CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
-            T const strength = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(i)]);
+            T const strength = detail::strength_of(options, i);
             detail::fit_directional(cascade, cascade_fit, strength, part, light, last, casters, receivers,
                                     margin_texels, options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }
-        cascades.faults |= cascade.map.faults;
     }
+    for (Cascade<T> const& cascade : cascades) cascades.faults |= cascade.map.faults;
     return cascades;
 }
 
@@ -9074,6 +9083,12 @@ struct QuadStack {
     std::array<ViewPart<T>, max_chosen_maps> held;  // parts that needed none of their own
     int held_count = 0;
 
+    template <class Visit>
+    void for_each_part(Visit const& visit) const noexcept {
+        for (int k = 0; k < count; ++k) visit(part[static_cast<unsigned>(k)]);
+        for (int k = 0; k < held_count; ++k) visit(held[static_cast<unsigned>(k)]);
+    }
+
     // The first that holds all of the points; -1: none.
     [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
         for (int k = 0; k < count; ++k) {
@@ -9366,6 +9381,16 @@ private:
     T price_ = std::numeric_limits<T>::max();
 };
 
+template <class T>
+[[nodiscard]] inline T farthest_along(Vec2<T> const& way, Vec3<T> const* points, int count) noexcept {
+    T farthest = std::numeric_limits<T>::lowest();
+    for (int i = 0; i < count; ++i) {
+        T const here = way.x * points[i].x + way.y * points[i].y;
+        farthest = here > farthest ? here : farthest;
+    }
+    return farthest;
+}
+
 // The octagon around more points than a piece can keep.
 template <class T>
 inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) noexcept {
@@ -9375,13 +9400,7 @@ inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) n
     std::array<Vec2<T>, sides> const way{Vec2<T>(1, 0),  Vec2<T>(half, half),   Vec2<T>(0, 1),  Vec2<T>(-half, half),
                                          Vec2<T>(-1, 0), Vec2<T>(-half, -half), Vec2<T>(0, -1), Vec2<T>(half, -half)};
     std::array<T, sides> reach;
-    for (unsigned d = 0; d < sides; ++d) {
-        reach[d] = std::numeric_limits<T>::lowest();
-        for (int i = 0; i < count; ++i) {
-            T const here = way[d].x * points[i].x + way[d].y * points[i].y;
-            reach[d] = here > reach[d] ? here : reach[d];
-        }
-    }
+    for (unsigned d = 0; d < sides; ++d) reach[d] = farthest_along(way[d], points, count);
     // Where two neighbouring sides meet: half a right angle apart, so the determinant is its sine.
     for (unsigned d = 0; d < sides; ++d) {
         unsigned const e = (d + 1) % sides;
@@ -9395,11 +9414,7 @@ inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) n
 template <class T, class Cover>
 inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover const& cover) noexcept {
     int all = 0;
-    auto const for_each_part = [&](auto const& visit) {
-        for (int k = 0; k < stack.count; ++k) visit(stack.part[static_cast<unsigned>(k)]);
-        for (int k = 0; k < stack.held_count; ++k) visit(stack.held[static_cast<unsigned>(k)]);
-    };
-    for_each_part([&](ViewPart<T> const& part) { cover(part, [&](Vec3<T> const*, int) { ++all; }); });
+    stack.for_each_part([&](ViewPart<T> const& part) { cover(part, [&](Vec3<T> const*, int) { ++all; }); });
     work.piece_count = 0;
     auto const put = [&work](unsigned at, Vec3<T> const* points, int count) {
         SettlingPiece<T>& piece = work.piece[at];
@@ -9412,7 +9427,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     constexpr int at_rim = quad_directions * max_chosen_maps, even = max_settling_pieces - at_rim;
     Supports<T> const around = no_supports(SampleFrame<T>{});
     int const stride = (all + even - 1) / even;
-    for_each_part([&](ViewPart<T> const& part) {
+    stack.for_each_part([&](ViewPart<T> const& part) {
         std::array<T, quad_directions> reach;
         reach.fill(std::numeric_limits<T>::lowest());
         auto const rim = static_cast<unsigned>(work.piece_count);
@@ -9421,12 +9436,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
         int seen = 0;
         cover(part, [&](Vec3<T> const* points, int count) {
             for (unsigned d = 0; d < quad_directions; ++d) {
-                Vec2<T> const& way = around.direction[d];
-                T farthest = std::numeric_limits<T>::lowest();
-                for (int i = 0; i < count; ++i) {
-                    T const here = way.x * points[i].x + way.y * points[i].y;
-                    farthest = here > farthest ? here : farthest;
-                }
+                T const farthest = farthest_along(around.direction[d], points, count);
                 if (!(farthest > reach[d])) continue;
                 reach[d] = farthest;
                 put(rim + d, points, count);
@@ -9437,11 +9447,11 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     });
 }
 
-// The stack with its quadrilaterals moved so that the price is less; every piece of its parts is in one of them, whole,
-// as before. The stack as it was where that cannot be had.
+// The stack with its quadrilaterals moved so that its `price` (price_in) is less; every piece of its parts is in one of
+// them, whole, as before. Stack and price as they were where that cannot be had.
 template <class T, class Cover>
 [[nodiscard]] inline QuadStack<T> settled(MapSearch<T>& work, QuadStack<T> const& stack, T usable_texels,
-                                          Cover const& cover) noexcept {
+                                          Cover const& cover, T& price) noexcept {
     if (stack.count < 2) return stack;
     take_pieces(work, stack, cover);
     Settling<T> settling(work, stack, usable_texels);
@@ -9477,9 +9487,11 @@ template <class T, class Cover>
         settled.quad[best] = best_quad;
         sound = settled.holder(points, count) >= 0;
     };
-    for (int k = 0; k < stack.count; ++k) cover(stack.part[static_cast<unsigned>(k)], keep);
-    for (int k = 0; k < stack.held_count; ++k) cover(stack.held[static_cast<unsigned>(k)], keep);
-    return sound && price_in(settled, work, usable_texels) < price_in(stack, work, usable_texels) ? settled : stack;
+    stack.for_each_part([&](ViewPart<T> const& part) { cover(part, keep); });
+    T const after = price_in(settled, work, usable_texels);
+    if (!sound || !(after < price)) return stack;
+    price = after;
+    return settled;
 }
 
 }  // namespace detail
@@ -9614,8 +9626,7 @@ template <class T, class Bound, class Cover>
         stack = candidate;
     }
     chosen.tried = search.tried;
-    stack = settled(work, stack, search.usable_texels, cover);
-    least = price_in(stack, work, search.usable_texels);
+    stack = settled(work, stack, search.usable_texels, cover, least);
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.

@@ -10,7 +10,6 @@
 #include "backends/pass_check.hpp"
 #include "backends/shaders/embedded.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -360,11 +359,7 @@ private:
     template <class Do>
     [[nodiscard]] DrawWork timed(DrawWork work, Do const& draw_all) const {
         if (resources_->statistics) resources_->statistics->begin();
-        gl_->Finish();
-        auto const begun = std::chrono::steady_clock::now();
-        draw_all();
-        gl_->Finish();
-        work.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+        work.milliseconds = session_.milliseconds_of(draw_all);
         if (resources_->statistics) work.driver = resources_->statistics->end();
         return work;
     }

@@ -2,7 +2,6 @@
 #include "backends/gl/compute.hpp"
 #include "backends/gl/session.hpp"
 
-#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -93,11 +92,9 @@ public:
 
     double run(std::span<Dispatch const> passes) override {
         Current const current = session_.current();
-        session_.procs().Finish();
-        auto const begun = std::chrono::steady_clock::now();
-        for (Dispatch const& pass : passes) compute_->run(pass);
-        session_.procs().Finish();
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+        return session_.milliseconds_of([&] {
+            for (Dispatch const& pass : passes) compute_->run(pass);
+        });
     }
 
     std::vector<std::string> take_messages() override { return session_.take_messages(); }

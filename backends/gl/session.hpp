@@ -9,6 +9,7 @@
 #include "backends/gl/listen.hpp"
 #include "backends/gl/procs.hpp"
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,16 @@ public:
             return std::string(reinterpret_cast<char const*>(gl_->GetString(what)));
         };
         return {context_->name(), text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION), takes_spirv ? "SPIR-V" : "GLSL"};
+    }
+
+    // From an idle driver until it has finished what `work` asks of it; the context is current.
+    template <class Do>
+    [[nodiscard]] double milliseconds_of(Do const& work) const {
+        gl_->Finish();
+        auto const begun = std::chrono::steady_clock::now();
+        work();
+        gl_->Finish();
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     }
 
     [[nodiscard]] std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }

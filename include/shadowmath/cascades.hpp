@@ -176,6 +176,11 @@ inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_
     cascade.depth_metres = depth.hi - depth.lo;
 }
 
+template <class T>
+[[nodiscard]] inline T strength_of(CascadeOptions<T> const& options, int map) noexcept {
+    return options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(map)]);
+}
+
 // All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is
 // mended.
 template <class T>
@@ -190,7 +195,7 @@ template <class T>
     for (int i = 0; i < count; ++i) {
         Cascade<T>& cascade = cascades.at[first + i];
         ranges[i] = cascade.range, maps[i] = &cascade.map;
-        strengths[i] = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(first + i)]);
+        strengths[i] = strength_of(options, first + i);
         in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
     }
     if (!in_range) return false;
@@ -252,22 +257,20 @@ template <class T>
         if (detail::fit_warps(cascades, steady, seen, light, casters, receivers, margin_texels, options))
             alone = steady;
     }
-    for (int i = 0; i < splits.count; ++i) {
+    for (int i = 0; i < alone; ++i) {
         Cascade<T>& cascade = cascades.at[i];
         ViewVolume<T> const part = slice(seen, cascade.range);
-        if (i >= alone) {
-            // Made already.
-        } else if (light.kind == LightKind::directional) {
+        if (light.kind == LightKind::directional) {
             Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
             CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
-            T const strength = options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(i)]);
+            T const strength = detail::strength_of(options, i);
             detail::fit_directional(cascade, cascade_fit, strength, part, light, last, casters, receivers,
                                     margin_texels, options);
         } else {
             cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
         }
-        cascades.faults |= cascade.map.faults;
     }
+    for (Cascade<T> const& cascade : cascades) cascades.faults |= cascade.map.faults;
     return cascades;
 }
 

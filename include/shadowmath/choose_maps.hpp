@@ -152,8 +152,7 @@ template <class T, class Bound, class Cover>
         stack = candidate;
     }
     chosen.tried = search.tried;
-    stack = settled(work, stack, search.usable_texels, cover);
-    least = price_in(stack, work, search.usable_texels);
+    stack = settled(work, stack, search.usable_texels, cover, least);
 
     // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
     // and whole in the map of its own part.

@@ -56,11 +56,7 @@ template <class T>
                         !is_positive_infinity(&slice.z_far) && all_finite(casters) && all_finite(receivers) &&
                         !is_empty(casters) && !is_empty(receivers);
     if (!usable) return focus;
-    bool const flat = slice.kind == ViewKind::orthographic;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
-    T const spread = flat ? T(1) : slice.z_far;
-    if (!(side <= farthest / std::fmax(spread, T(1))) || !(slice.z_far <= farthest) ||
+    if (!detail::sides_are_within(slice, farthest) || !(slice.z_far <= farthest) ||
         !(detail::largest_of(slice.pose.position) <= farthest))
         return focus;
     Vec3<T> const eye = slice.pose.position, travel = light.direction;

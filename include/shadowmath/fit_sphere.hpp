@@ -95,8 +95,7 @@ struct BallInView {
 template <class T>
 [[nodiscard]] inline BallInView<T> ball_in_view(ViewVolume<T> const& slice) noexcept {
     bool const flat = slice.kind == ViewKind::orthographic;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const side = largest_side(slice);
     T const unit = flat ? std::fmax(side, slice.z_far) : slice.z_far;
     Sphere<T> ball;
     if (flat) {
@@ -125,8 +124,7 @@ template <class T>
     if (faults_of(slice).any() || is_positive_infinity(&slice.z_far)) return {};
     bool const flat = slice.kind == ViewKind::orthographic;
     Vec3<T> const &p = slice.pose.position, &f = slice.pose.forward, &r = slice.pose.right, &u = slice.pose.up;
-    T const side = std::fmax(std::fmax(std::abs(slice.left), std::abs(slice.right)),
-                             std::fmax(std::abs(slice.bottom), std::abs(slice.top)));
+    T const side = detail::largest_side(slice);
     if (!(std::fmax(slice.z_far, detail::largest_of(p)) <= detail::farthest_metres<T>) ||
         !(side <= (flat ? detail::farthest_metres<T> : T(1e9))) ||
         (!flat && !(side * slice.z_far <= detail::farthest_metres<T>)))

@@ -90,11 +90,7 @@ template <class T>
         door.stop = !(door.view.z_near < door.view.z_far);
     }
     // Nor one that is seen at its sides.
-    ViewVolume<T> const& seen = door.view;
-    T const spread = seen.kind == ViewKind::perspective ? glm::max(seen.z_far, T(1)) : T(1);
-    T const side = glm::max(glm::max(std::abs(seen.left), std::abs(seen.right)),
-                            glm::max(std::abs(seen.bottom), std::abs(seen.top)));
-    if (!(side <= farthest / spread)) {
+    if (!detail::sides_are_within(door.view, farthest)) {
         door.faults |= Fault::precision_lost;
         door.stop = true;
     }

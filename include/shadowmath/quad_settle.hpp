@@ -230,6 +230,16 @@ private:
     T price_ = std::numeric_limits<T>::max();
 };
 
+template <class T>
+[[nodiscard]] inline T farthest_along(Vec2<T> const& way, Vec3<T> const* points, int count) noexcept {
+    T farthest = std::numeric_limits<T>::lowest();
+    for (int i = 0; i < count; ++i) {
+        T const here = way.x * points[i].x + way.y * points[i].y;
+        farthest = here > farthest ? here : farthest;
+    }
+    return farthest;
+}
+
 // The octagon around more points than a piece can keep.
 template <class T>
 inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) noexcept {
@@ -239,13 +249,7 @@ inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) n
     std::array<Vec2<T>, sides> const way{Vec2<T>(1, 0),  Vec2<T>(half, half),   Vec2<T>(0, 1),  Vec2<T>(-half, half),
                                          Vec2<T>(-1, 0), Vec2<T>(-half, -half), Vec2<T>(0, -1), Vec2<T>(half, -half)};
     std::array<T, sides> reach;
-    for (unsigned d = 0; d < sides; ++d) {
-        reach[d] = std::numeric_limits<T>::lowest();
-        for (int i = 0; i < count; ++i) {
-            T const here = way[d].x * points[i].x + way[d].y * points[i].y;
-            reach[d] = here > reach[d] ? here : reach[d];
-        }
-    }
+    for (unsigned d = 0; d < sides; ++d) reach[d] = farthest_along(way[d], points, count);
     // Where two neighbouring sides meet: half a right angle apart, so the determinant is its sine.
     for (unsigned d = 0; d < sides; ++d) {
         unsigned const e = (d + 1) % sides;
@@ -259,11 +263,7 @@ inline void outline(SettlingPiece<T>& piece, Vec3<T> const* points, int count) n
 template <class T, class Cover>
 inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover const& cover) noexcept {
     int all = 0;
-    auto const for_each_part = [&](auto const& visit) {
-        for (int k = 0; k < stack.count; ++k) visit(stack.part[static_cast<unsigned>(k)]);
-        for (int k = 0; k < stack.held_count; ++k) visit(stack.held[static_cast<unsigned>(k)]);
-    };
-    for_each_part([&](ViewPart<T> const& part) { cover(part, [&](Vec3<T> const*, int) { ++all; }); });
+    stack.for_each_part([&](ViewPart<T> const& part) { cover(part, [&](Vec3<T> const*, int) { ++all; }); });
     work.piece_count = 0;
     auto const put = [&work](unsigned at, Vec3<T> const* points, int count) {
         SettlingPiece<T>& piece = work.piece[at];
@@ -276,7 +276,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     constexpr int at_rim = quad_directions * max_chosen_maps, even = max_settling_pieces - at_rim;
     Supports<T> const around = no_supports(SampleFrame<T>{});
     int const stride = (all + even - 1) / even;
-    for_each_part([&](ViewPart<T> const& part) {
+    stack.for_each_part([&](ViewPart<T> const& part) {
         std::array<T, quad_directions> reach;
         reach.fill(std::numeric_limits<T>::lowest());
         auto const rim = static_cast<unsigned>(work.piece_count);
@@ -285,12 +285,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
         int seen = 0;
         cover(part, [&](Vec3<T> const* points, int count) {
             for (unsigned d = 0; d < quad_directions; ++d) {
-                Vec2<T> const& way = around.direction[d];
-                T farthest = std::numeric_limits<T>::lowest();
-                for (int i = 0; i < count; ++i) {
-                    T const here = way.x * points[i].x + way.y * points[i].y;
-                    farthest = here > farthest ? here : farthest;
-                }
+                T const farthest = farthest_along(around.direction[d], points, count);
                 if (!(farthest > reach[d])) continue;
                 reach[d] = farthest;
                 put(rim + d, points, count);
@@ -301,11 +296,11 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     });
 }
 
-// The stack with its quadrilaterals moved so that the price is less; every piece of its parts is in one of them, whole,
-// as before. The stack as it was where that cannot be had.
+// The stack with its quadrilaterals moved so that its `price` (price_in) is less; every piece of its parts is in one of
+// them, whole, as before. Stack and price as they were where that cannot be had.
 template <class T, class Cover>
 [[nodiscard]] inline QuadStack<T> settled(MapSearch<T>& work, QuadStack<T> const& stack, T usable_texels,
-                                          Cover const& cover) noexcept {
+                                          Cover const& cover, T& price) noexcept {
     if (stack.count < 2) return stack;
     take_pieces(work, stack, cover);
     Settling<T> settling(work, stack, usable_texels);
@@ -341,9 +336,11 @@ template <class T, class Cover>
         settled.quad[best] = best_quad;
         sound = settled.holder(points, count) >= 0;
     };
-    for (int k = 0; k < stack.count; ++k) cover(stack.part[static_cast<unsigned>(k)], keep);
-    for (int k = 0; k < stack.held_count; ++k) cover(stack.held[static_cast<unsigned>(k)], keep);
-    return sound && price_in(settled, work, usable_texels) < price_in(stack, work, usable_texels) ? settled : stack;
+    stack.for_each_part([&](ViewPart<T> const& part) { cover(part, keep); });
+    T const after = price_in(settled, work, usable_texels);
+    if (!sound || !(after < price)) return stack;
+    price = after;
+    return settled;
 }
 
 }  // namespace detail

@@ -33,6 +33,12 @@ struct QuadStack {
     std::array<ViewPart<T>, max_chosen_maps> held;  // parts that needed none of their own
     int held_count = 0;
 
+    template <class Visit>
+    void for_each_part(Visit const& visit) const noexcept {
+        for (int k = 0; k < count; ++k) visit(part[static_cast<unsigned>(k)]);
+        for (int k = 0; k < held_count; ++k) visit(held[static_cast<unsigned>(k)]);
+    }
+
     // The first that holds all of the points; -1: none.
     [[nodiscard]] int holder(Vec3<T> const* points, int point_count) const noexcept {
         for (int k = 0; k < count; ++k) {

@@ -127,9 +127,7 @@ template <class T>
 // As bounding_sphere asks of a slice.
 template <class T>
 [[nodiscard]] inline bool ball_in_reach(ViewVolume<T> const& view, T farthest) noexcept {
-    auto const more = [](T a, T b) { return a > b ? a : b; };
-    T const side =
-        more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
+    T const side = largest_side(view);
     return view.kind == ViewKind::orthographic || (side <= T(1e9) && side * farthest <= farthest_metres<T>);
 }
 

@@ -172,6 +172,24 @@ template <class T>
     return mended;
 }
 
+namespace detail {
+
+// In the unit of the sides, of a view without faults.
+template <class T>
+[[nodiscard]] inline T largest_side(ViewVolume<T> const& view) noexcept {
+    auto const more = [](T a, T b) { return a > b ? a : b; };
+    return more(more(std::abs(view.left), std::abs(view.right)), more(std::abs(view.bottom), std::abs(view.top)));
+}
+
+// Nothing that it sees is farther aside than `farthest` metres, which is what its far end says.
+template <class T>
+[[nodiscard]] inline bool sides_are_within(ViewVolume<T> const& view, T farthest) noexcept {
+    T const spread = view.kind == ViewKind::perspective && view.z_far > T(1) ? view.z_far : T(1);
+    return largest_side(view) <= farthest / spread;
+}
+
+}  // namespace detail
+
 // The point seen at `side_x`, `side_y` (in the unit of the sides) and `depth` metres along the view.
 template <class T>
 [[nodiscard]] inline Vec3<T> point_at(ViewVolume<T> const& view, T side_x, T side_y, T depth) noexcept {

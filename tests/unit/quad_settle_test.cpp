@@ -61,7 +61,10 @@ struct Field {
                 if (is_in(part, piece[0] * 0.5 + piece[3] * 0.5)) visit(piece.data(), 4);
         };
     }
-    [[nodiscard]] detail::QuadStack<double> settled() { return detail::settled(*work, stack, texels, cover()); }
+    [[nodiscard]] detail::QuadStack<double> settled() {
+        double before = price(stack);
+        return detail::settled(*work, stack, texels, cover(), before);
+    }
     [[nodiscard]] double price(detail::QuadStack<double> const& of) const { return price_in(of, *work, texels); }
 };
 
@@ -114,9 +117,11 @@ TEST(QuadSettle, APieceOfManyPointsIsHeldWhole) {
         field.cover()(part, visit);
         if (is_in(part, V3(11.9, 5, 1))) visit(many.data(), 9);
     };
-    auto const settled = detail::settled(*field.work, field.stack, texels, cover);
+    double price = field.price(field.stack);
+    auto const settled = detail::settled(*field.work, field.stack, texels, cover, price);
     EXPECT_GE(settled.holder(many.data(), 9), 0);
     EXPECT_LT(field.price(settled), field.price(field.stack));
+    EXPECT_EQ(field.price(settled), price);
 }
 
 TEST(QuadSettle, AnOutlineTouchesItsPointsInEightDirections) {
