@@ -4,6 +4,8 @@
 # Sourced by scripts/demo, scripts/test, scripts/bench and scripts/engines: what each needs of Debian, once, and how it
 # gets there.
 
+export PATH  # where there is none bash makes one up, and keeps it to itself
+
 demo_packages=(
     g++ cmake ninja-build
     libglm-dev                                                   # the only one that the headers need
