@@ -26,13 +26,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
     add_compile_options(-Wno-restrict)  # false alarms about "literal" + std::string, GCC bug 105651
 endif()
 
-# Every header compiles alone: the target all_verify_interface_header_sets, which CMake makes, is part of `all` here.
-set_target_properties(shadowmath PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
-add_custom_target(headers_alone ALL)
-cmake_language(DEFER DIRECTORY "${PROJECT_SOURCE_DIR}" CALL
-               add_dependencies headers_alone shadowmath_verify_interface_header_sets)
-
 if(SHADOWMATH_BUILD_TESTS)
+    # Every header compiles alone: the target all_verify_interface_header_sets, which CMake makes, is part of `all` here.
+    set_target_properties(shadowmath PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+    add_custom_target(headers_alone ALL)
+    cmake_language(DEFER DIRECTORY "${PROJECT_SOURCE_DIR}" CALL
+                   add_dependencies headers_alone shadowmath_verify_interface_header_sets)
+
     enable_testing()
     add_test(NAME "The house is in order" COMMAND "${PROJECT_SOURCE_DIR}/scripts/check")
 endif()
