@@ -27,7 +27,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 
 if(SHADOWMATH_BUILD_TESTS)
-    # Every header compiles alone: the target all_verify_interface_header_sets, which CMake makes, is part of `all` here.
+    # Every header compiles alone: all_verify_interface_header_sets, which CMake makes, is part of `all` here.
     set_target_properties(shadowmath PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
     add_custom_target(headers_alone ALL)
     cmake_language(DEFER DIRECTORY "${PROJECT_SOURCE_DIR}" CALL
