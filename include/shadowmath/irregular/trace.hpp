@@ -198,7 +198,9 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     if (count == 0 || count > left) count = left;
     // All along a ray of a sun w is that of the receiver; toward a lamp it falls to 0.
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
-    T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
+    T const wanted = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w),
+            least = std::numeric_limits<T>::min();
+    T const w_floor = wanted > least ? wanted : least;  // what is clipped is divided by it
     PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
     detail::TraceKernel<Lanes> const kernel{
         buffer, {buffer, casters, frame, pixel_light(frame, buffer.source), w_floor}, {buffer, frame}};
