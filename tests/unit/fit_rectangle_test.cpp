@@ -126,6 +126,23 @@ TEST(FitRectangle, OfNothingIsTheUnitBox) {
     EXPECT_EQ(box.hi, V2(1));
 }
 
+TEST(FitRectangle, OfABodyBeyondReachIsTheUnitBox) {
+    ConvexBody<double> body = plank(0.3);
+    for (auto& edge : body.edges) edge.a *= 1e19, edge.b *= 1e19;
+    EXPECT_EQ(fit_rectangle(overhead, body, 1024, 0.0).lo, V2(-1));
+}
+
+// Neither a last direction that is no number nor a patience that is none counts.
+TEST(FitRectangle, HoldsToNoAngleThatIsNone) {
+    double const nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    auto const body = slice_seen(0.7);
+    auto const free = fit_rectangle(overhead, body, 1024, 0.0);
+    EXPECT_EQ(angle_of(fit_rectangle(overhead, body, 1024, 0.0, V3(nan, 0, 0), 10.0)), angle_of(free));
+    V3 const last = overhead.x * std::cos(0.2) + overhead.y * std::sin(0.2);
+    for (double const patience : {nan, inf, -0.5})
+        EXPECT_EQ(area(fit_rectangle(overhead, body, 1024, 0.0, last, patience)), area(free)) << patience;
+}
+
 TEST(FitRectangle, NeitherAllocatesNorRaisesAFlag) {
     EXPECT_TRUE(test::watched([] { return fit_rectangle(overhead, slice_seen(0.4), 1024, 2.0); }).calm_in_range());
 }
