@@ -279,6 +279,17 @@ TYPED_TEST(CascadesOf, APinnedFirstSplitEndsWhereItIsPinned) {
     EXPECT_EQ(this->fitted().at[0].range.end, TypeParam(2));
 }
 
+TYPED_TEST(CascadesOf, BoxesThatAreNotFiniteAreNamedEachAlone) {
+    Aabb<TypeParam> endless = this->world;
+    endless.hi.y = std::numeric_limits<TypeParam>::infinity();
+    for (bool const casters : {true, false}) {
+        auto const cascades = fit_cascades(this->view, this->sun, casters ? endless : this->world,
+                                           casters ? this->world : endless, this->options);
+        EXPECT_TRUE(cascades.faults.has(Fault::not_finite)) << casters;
+        EXPECT_EQ(cascades.count, 0) << casters;
+    }
+}
+
 TYPED_TEST(CascadesOf, NoCastersOrNoReceiversIsNoFault) {
     for (bool const casters : {true, false}) {
         Aabb<TypeParam> const empty;

@@ -86,6 +86,16 @@ TEST(Slices, OfAnOrthographicViewThatIsCentredStandOnTheGrid) {
         EXPECT_TRUE(laws::is_on_the_grid(spheres[i], basis, slice(view, slice_range(splits, i)), 512, 2.0f, gl_clip));
 }
 
+TEST(Slices, AreMadeForAsManySplitsAsThereCanBe) {
+    LightBasis<float> const basis;
+    for (int const count : {1, max_splits}) {
+        Splits<float> const splits = uniform_splits(0.1f, 60.0f, count);
+        Mat4<float> maps[max_splits];
+        EXPECT_TRUE(fit_slice_boxes(some_view(), basis, splits, 0.0f, gl_clip, maps));
+        EXPECT_TRUE(fit_slice_spheres(some_view(), basis, splits, 512, 2.0f, gl_clip, maps));
+    }
+}
+
 TEST(Slices, MayBeginAtTheEye) {
     LightBasis<float> const basis;
     Splits<float> splits = uniform_splits(0.1f, 60.0f, 4);
@@ -117,7 +127,7 @@ TEST(Slices, FarOutAlongBothAxesStandOnTheGrid) {
     LightBasis<double> const basis = light_basis(directional(Vec3<double>(0.4, -1, 0.3)).direction);
     Splits<double> const splits = practical_splits(0.1, 60.0, 4);
     for (double const sign : {1.0, -1.0}) {
-        Pose<double> const pose = pose_looking((basis.x + basis.y * sign) * 1e7, Vec3<double>(0.1, -0.2, -1),
+        Pose<double> const pose = pose_looking((basis.x + basis.y * sign) * 1e9, Vec3<double>(0.1, -0.2, -1),
                                                Vec3<double>(0, 1, 0));
         ViewVolume<double> const view = perspective_view(pose, 1.0, 1.5, 0.1, 60.0);
         Mat4<double> maps[max_splits];

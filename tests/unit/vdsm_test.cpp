@@ -312,6 +312,21 @@ TEST(Vdsm, GoesAsFarBeyondTheScreenAsItsReachAndNoFarther) {
     for (double const farthest : most) EXPECT_NEAR(farthest, options.reach, 1e-9) << "or nothing was tried";
 }
 
+// A mast over ground that is nearer than w_min, though in the picture: nothing that the map serves is below it.
+TEST(Vdsm, SpendsNoDepthOnCastersNearerThanItsWMin) {
+    ViewVolume<double> view = walker();
+    view.pose = pose_looking(V3(0, 1.7, 0), V3(0, -1, -1), V3(0, 1, 0));
+    VdsmOptions<double> options;
+    options.crop = false;
+    options.w_min = 2.5;
+    auto const is_visible = [&](double ahead) {
+        Aabb<double> const mast{V3(-0.05, 0.1, -ahead - 0.05), V3(0.05, 50, -ahead + 0.05)};
+        return view_dependent_map(view, directional(V3(0, -1, 0)), ground, mast, flat_world, options, gl_clip).visible;
+    };
+    EXPECT_FALSE(is_visible(1.1));
+    EXPECT_TRUE(is_visible(3.0));
+}
+
 TEST(Vdsm, GivesAReceiverThatIsAPointATexelOfTheScreen) {
     V3 const here(1, 0, -9), aside(1.001, 0, -9.002);
     Aabb<double> const point{here, here};
