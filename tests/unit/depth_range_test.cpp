@@ -62,6 +62,39 @@ TYPED_TEST(DepthRangeOf, AWallBeginsAndEndsWhereTheCornerEdgesPierceIt) {
     }
 }
 
+TYPED_TEST(DepthRangeOf, DepthsAreTheSameInAnyUnit) {
+    using T = TypeParam;
+    auto const of = [](T unit) {
+        Pose<T> const pose =
+            pose_looking(Vec3<T>(1, 2, 0) * unit, Vec3<T>(T(0.6), T(0.4), T(-1)), Vec3<T>(T(0.2), 1, 0));
+        Aabb<T> const wall{Vec3<T>(-500, -500, -10) * unit, Vec3<T>(500, 500, -9) * unit};
+        return depths_inside(wall, perspective_view(pose, T(1), T(1), T(0.1) * unit, T(100) * unit));
+    };
+    DepthRange<T> const metres = of(T(1));
+    for (T const unit : {T(1) / 4096, T(4096)}) {
+        DepthRange<T> const scaled = of(unit);
+        ASSERT_TRUE(scaled.visible);
+        EXPECT_TRUE(this->close(scaled.lo / unit, metres.lo));
+        EXPECT_TRUE(this->close(scaled.hi / unit, metres.hi));
+    }
+}
+
+TYPED_TEST(DepthRangeOf, APlateThroughTheEyeIsSeenFromTheNearEndToItsOwn) {
+    using T = TypeParam;
+    ViewVolume<T> const view = perspective_view(Pose<T>{}, T(1), T(1), T(0.05), T(100));
+    Aabb<T> const plate{Vec3<T>(T(-0.2), T(0), T(-0.2)), Vec3<T>(T(0.2), T(0), T(0.2))};
+    DepthRange<T> const range = depths_inside(plate, view);
+    ASSERT_TRUE(range.visible);
+    EXPECT_EQ(range.lo, view.z_near);
+    EXPECT_TRUE(this->close(range.hi, T(0.2), 1));
+}
+
+TYPED_TEST(DepthRangeOf, InAxesThatAreNoneNothingIsSeen) {
+    using T = TypeParam;
+    this->sides.basis.x = Vec3<T>(0);
+    EXPECT_FALSE(this->range(this->tower, this->ground).visible);
+}
+
 TYPED_TEST(DepthRangeOf, PancakeStartsAtTheFirstReceiver) {
     auto const range = this->range(this->tower, this->ground, true);
     EXPECT_TRUE(this->close(range.lo, 1));

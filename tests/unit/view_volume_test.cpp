@@ -184,6 +184,7 @@ TEST(Pose, WithoutAForwardOrARightAxisComesBackAsItIs) {
         Pose<double> pose;
         pose.*axis = glm::dvec3(0.0);
         EXPECT_EQ(orthonormalized(pose).*axis, glm::dvec3(0.0));
+        EXPECT_EQ(orthonormalized(pose).up, pose.up);
     }
 }
 
