@@ -219,3 +219,16 @@ TEST(DepthsInBox, OfARayAlongAnAxisAreThoseOfTheBoxAroundIt) {
     EXPECT_FALSE(met(V3(-0.9, -0.5, -20), V3(-0.5, 0.5, -10)));
     EXPECT_FALSE(met(V3(-0.5, -0.9, -20), V3(0.5, -0.5, -10)));
 }
+
+TEST(StillGood, IsAMapWhoseWorstTexelIsNoLargerThanAFewPixelsHoweverFineItWas) {
+    Worth<double> drawn, now;
+    drawn.worst = 0.2;
+    now.worst = 1.4;
+    EXPECT_TRUE(still_good(drawn, now));
+    now.worst = 1.6;
+    EXPECT_FALSE(still_good(drawn, now));
+    drawn.worst = 2.0;
+    EXPECT_TRUE(still_good(drawn, now));
+    now.unserved = 1;
+    EXPECT_FALSE(still_good(drawn, now));
+}
