@@ -34,8 +34,9 @@ TYPED_TEST(DepthRangeProperty, FindsTheDepthsThatBoxAndVolumeHaveInCommon) {
             T const across = *uniform<T>(T(0), T(1));
             T const upward = *uniform<T>(T(0), T(1));
             T const ahead = *uniform<T>(T(0), T(1));
-            Vec3<T> const middle = point_at(volume, glm::mix(volume.left, volume.right, across),
-                                            glm::mix(volume.bottom, volume.top, upward), volume.z_near + length * ahead);
+            Vec3<T> const middle =
+                point_at(volume, glm::mix(volume.left, volume.right, across),
+                         glm::mix(volume.bottom, volume.top, upward), volume.z_near + length * ahead);
             Vec3<T> const half = body.hi - body.lo;
             body = {middle - half, middle + half};
         }

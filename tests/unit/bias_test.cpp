@@ -424,7 +424,8 @@ TEST(NormalOffsetAt, OfANormalThatIsNotFiniteIsZeroAndRaisesNoFlag) {
     Overhead const overhead;
     for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         auto const run = test::watched([&] {
-            return normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(bad, 1, 0), 1.0);
+            return normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(bad, 1, 0),
+                                    1.0);
         });
         EXPECT_EQ(run.result, 0.0);
         EXPECT_TRUE(run.calm_in_range());

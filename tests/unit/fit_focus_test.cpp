@@ -67,8 +67,8 @@ TEST(FitFocus, IsNoDeeperThanTheCastersWhoseShadowsFallOnIt) {
 
 TEST(FitFocus, ReachesCastersHighAboveASliceAroundTheOrigin) {
     // From 10 m before the origin to 10 m behind it, 20 m wide and high.
-    ViewVolume<double> const slice = orthographic_view(pose_looking(V3(0, 0, 20), V3(0, 0, -1), V3(0, 1, 0)), -10.0,
-                                                       10.0, -10.0, 10.0, 10.0, 30.0);
+    ViewVolume<double> const slice =
+        orthographic_view(pose_looking(V3(0, 0, 20), V3(0, 0, -1), V3(0, 1, 0)), -10.0, 10.0, -10.0, 10.0, 10.0, 30.0);
     Aabb<double> const tower{V3(-1, 0, -1), V3(1, 500, 1)}, floor{V3(-50, -1, -50), V3(50, 0, 50)};
     EXPECT_NEAR(focus_of(slice, overhead, tower, floor).depth.lo, -500, 1e-6);
 }
@@ -87,8 +87,7 @@ TEST(FitFocus, IsTheSameInAnyUnit) {
         ViewVolume<float> const slice =
             perspective_view(pose_looking(glm::vec3(0, 2, 0) * unit, glm::vec3(0, 0, -1), glm::vec3(0, 1, 0)), 1.0f,
                              1.6f, 5.0f * unit, 40.0f * unit);
-        return focus_of(slice, directional(glm::vec3(1, -2, 0.5f)),
-                        box(glm::vec3(-30, 0, -60), glm::vec3(30, 12, 10)),
+        return focus_of(slice, directional(glm::vec3(1, -2, 0.5f)), box(glm::vec3(-30, 0, -60), glm::vec3(30, 12, 10)),
                         box(glm::vec3(-30, 0, -60), glm::vec3(30, 3, 10)));
     };
     Focus<float> const metres = of(1.0f);

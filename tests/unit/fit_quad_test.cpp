@@ -313,9 +313,8 @@ TEST(FitQuad, AStrideLeavesSamplesOutOfThePriceNeverOutOfTheMap) {
         ASSERT_TRUE(fit.quad.visible) << stride;
         for (auto const& sample : cloud.samples) EXPECT_TRUE(is_in(fit.quad, sample.place)) << stride;
     }
-    double const half = fit_quad(cloud.supports, cloud.samples.data(), cloud.list.data(), int(cloud.list.size()),
-                                 1020.0, 2)
-                            .price;
+    double const half =
+        fit_quad(cloud.supports, cloud.samples.data(), cloud.list.data(), int(cloud.list.size()), 1020.0, 2).price;
     EXPECT_NEAR(half / cloud.fit().price, 1.0, 0.1) << "every other sample counts twice";
 }
 

@@ -173,7 +173,10 @@ TEST(Pcss, AnyNumberWithoutAnEndIsLitAlone) {
     EXPECT_FALSE(seen({good.texel, inf, {}}, scene.penumbra).blocked);
     for (int member = 0; member < 5; ++member) {
         MapPenumbra<double> bad = scene.penumbra;
-        (member == 0 ? bad.rim_x.x : member == 1 ? bad.rim_y.y : member == 2 ? bad.depth_of_gap : bad.largest_gap) = inf;
+        (member == 0   ? bad.rim_x.x
+         : member == 1 ? bad.rim_y.y
+         : member == 2 ? bad.depth_of_gap
+                       : bad.largest_gap) = inf;
         if (member == 4) bad.largest_gap = not_a_number;
         EXPECT_EQ(seen(good, bad).visibility, 1.0) << member;
         EXPECT_FALSE(seen(good, bad).blocked) << member;
@@ -183,9 +186,8 @@ TEST(Pcss, AnyNumberWithoutAnEndIsLitAlone) {
     auto const run = test::watched([&] { return seen(good, none); });
     EXPECT_FALSE(run.result.blocked);
     EXPECT_TRUE(run.calm_in_range());
-    auto const behind = test::watched([&] {
-        return soft_filtered(good, 0.0, scene.penumbra, size, scene.map.clip, PcssOptions<double>{}, black);
-    });
+    auto const behind = test::watched(
+        [&] { return soft_filtered(good, 0.0, scene.penumbra, size, scene.map.clip, PcssOptions<double>{}, black); });
     EXPECT_FALSE(behind.result.blocked);
     EXPECT_TRUE(behind.calm_in_range());
 }

@@ -118,7 +118,8 @@ TEST(Tile, WithoutAreaOrOutsideItsAtlasIsBadRegionAndTheIdentity) {
         EXPECT_TRUE(faults_of(bad).has(Fault::bad_region));
         EXPECT_EQ(tile_matrix<float>(bad), glm::mat4(1.0f));
     }
-    for (Tile const& good : {Tile{56, 56, 8, 64, 64}, Tile{0, 0, 64, 64, 64}, Tile{0, 3, 8, 64, 64}, Tile{3, 0, 8, 64, 64}})
+    for (Tile const& good :
+         {Tile{56, 56, 8, 64, 64}, Tile{0, 0, 64, 64, 64}, Tile{0, 3, 8, 64, 64}, Tile{3, 0, 8, 64, 64}})
         EXPECT_FALSE(faults_of(good).any());
     EXPECT_EQ(tile_matrix<float>(Tile{0, 0, 64, 64, 64}), glm::mat4(1.0f));
 }

@@ -215,8 +215,7 @@ TYPED_TEST(Sdsm, LightEntersABoxNoSoonerThanItIsSaidTo) {
     int tight = 0;
     for (int i = 0; i < 2000; ++i) {
         T const turn = T(i) * T(0.37), rise = T(0.2) + T(i % 17) * T(0.07);
-        LightBasis<T> const basis =
-            light_basis(directional(Vec3<T>(std::cos(turn), -rise, std::sin(turn))).direction);
+        LightBasis<T> const basis = light_basis(directional(Vec3<T>(std::cos(turn), -rise, std::sin(turn))).direction);
         Vec2<T> const lo(T(i % 5) - T(2.3), T(i % 7) - T(3.1)), hi = lo + T(1e-3) * T(i % 11);
         long double first = 1e9L;
         for (T const x : {lo.x, hi.x})
@@ -224,8 +223,8 @@ TYPED_TEST(Sdsm, LightEntersABoxNoSoonerThanItIsSaidTo) {
                 long double enters = -1e9L;
                 for (int k = 0; k < 3; ++k) {
                     long double const along = basis.depth[k];
-                    long double const across = static_cast<long double>(basis.x[k]) * x +
-                                               static_cast<long double>(basis.y[k]) * y;
+                    long double const across =
+                        static_cast<long double>(basis.x[k]) * x + static_cast<long double>(basis.y[k]) * y;
                     if (std::abs(along) > 1e-4L)
                         enters = std::max(enters, ((along > 0 ? box.lo[k] : box.hi[k]) - across) / along);
                 }

@@ -127,8 +127,8 @@ TEST(Slices, FarOutAlongBothAxesStandOnTheGrid) {
     LightBasis<double> const basis = light_basis(directional(Vec3<double>(0.4, -1, 0.3)).direction);
     Splits<double> const splits = practical_splits(0.1, 60.0, 4);
     for (double const sign : {1.0, -1.0}) {
-        Pose<double> const pose = pose_looking((basis.x + basis.y * sign) * 1e9, Vec3<double>(0.1, -0.2, -1),
-                                               Vec3<double>(0, 1, 0));
+        Pose<double> const pose =
+            pose_looking((basis.x + basis.y * sign) * 1e9, Vec3<double>(0.1, -0.2, -1), Vec3<double>(0, 1, 0));
         ViewVolume<double> const view = perspective_view(pose, 1.0, 1.5, 0.1, 60.0);
         Mat4<double> maps[max_splits];
         ASSERT_TRUE(fit_slice_spheres(view, basis, splits, 512, 2.0, gl_clip, maps));

@@ -296,8 +296,8 @@ TEST(Pose, LookingAlongItsUpTakesTheWorldAxisLeastAlongIt) {
 }
 
 TEST(ViewVolume, OfAnEndlessOrthographicViewLosesNothingHoweverFar) {
-    ViewVolume<double> const view = orthographic_view(Pose<double>{}, -1.0, 1.0, -1.0, 1.0, 0.1,
-                                                      std::numeric_limits<double>::infinity());
+    ViewVolume<double> const view =
+        orthographic_view(Pose<double>{}, -1.0, 1.0, -1.0, 1.0, 0.1, std::numeric_limits<double>::infinity());
     Vec4<double> const at = clip_from_world(view, gl_zero_to_one_clip) * Vec4<double>(0, 0, -1e9, 1);
     EXPECT_GE(at.z, 0.0);
     EXPECT_LE(at.z, at.w);

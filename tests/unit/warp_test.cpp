@@ -355,8 +355,8 @@ TEST(SimplePerspectiveMap, ByTheTrapezoidWarpsABodyOfHalfAMetreAndDividesByNoLen
     Aabb<double> const patch{V3(-1, 0, -4.5), V3(1, 0, -4.0)}, point{V3(0, 0, -4.0), V3(0, 0, -4.0)};
     ShadowMap<double> const warped = simple_perspective_map(level_view(), overhead, patch, patch, options, gl_clip);
     EXPECT_GT(glm::length(V3(row(warped.clip_from_world, 3))), 0.0);
-    auto const run = test::watched(
-        [&] { return simple_perspective_map(level_view(), overhead, point, point, options, gl_clip); });
+    auto const run =
+        test::watched([&] { return simple_perspective_map(level_view(), overhead, point, point, options, gl_clip); });
     EXPECT_TRUE(run.calm_in_range());
     EXPECT_TRUE(run.result.visible);
 }
