@@ -140,3 +140,36 @@ TEST(ProjectedBounds, OfThousandsLeaveOutNoBoxThatReachesFartherThanThoseBefore)
                 << some << ' ' << w_min;
         }
 }
+
+// A thousand boxes, and behind them one that reaches farther on one side alone, by little, for a view from anywhere.
+TEST(ProjectedBounds, OfThousandsHoldTheOneThatReachesFartherOnOneSide) {
+    constexpr int count = 1100;
+    for (V3 const& forward : {V3(0, 0, -1), V3(1, -0.4, 0.3), V3(-0.3, 0.9, -0.2), V3(-0.5, -0.5, 0.8)}) {
+        Pose<double> const pose = pose_looking(V3(40, -25, 60), forward, V3(0.1, 1, 0.2));
+        glm::dmat4 const matrix = clip_from_world(perspective_view(pose, 1.2, 1.3, 1.0, 100.0), ClipSpace{});
+        auto const box_at_view = [&](V3 const& at) {
+            V3 const middle = pose.position + pose.right * at.x + pose.up * at.y + pose.forward * at.z;
+            return Aabb<double>{middle - V3(0.01, 0.02, 0.03), middle + V3(0.01, 0.02, 0.03)};
+        };
+        for (V3 const& side : {V3(-1, 0, 0), V3(1, 0, 0), V3(0, -1, 0), V3(0, 1, 0), V3(0, 0, -1), V3(0, 0, 1)}) {
+            std::vector<Aabb<double>> boxes;
+            std::vector<double> columns[6];
+            for (int i = 0; i < count; ++i) {
+                double const turn = 0.7 * i, lift = std::sin(1.3 * i);
+                V3 at(std::cos(turn), std::sin(turn), 10.0 + lift);
+                if (i == count - 3) at = V3(0, 0, 10) + side * 1.3;
+                boxes.push_back(box_at_view(at));
+                for (int axis = 0; axis < 3; ++axis) {
+                    columns[axis].push_back(boxes.back().lo[axis]);
+                    columns[axis + 3].push_back(boxes.back().hi[axis]);
+                }
+            }
+            BoxArrays<double> const arrays{columns[0].data(), columns[1].data(), columns[2].data(),
+                                           columns[3].data(), columns[4].data(), columns[5].data()};
+            Aabb<double> const together = projected_bounds(matrix, arrays, count, 1.0);
+            EXPECT_TRUE(laws::are_the_merged_bounds(matrix, boxes.data(), count, 1.0, together));
+            Aabb<double> const others = projected_bounds(matrix, arrays, count - 3, 1.0);
+            EXPECT_NE(together.lo + together.hi, others.lo + others.hi) << "or nothing was tried";
+        }
+    }
+}
