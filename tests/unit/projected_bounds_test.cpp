@@ -173,3 +173,17 @@ TEST(ProjectedBounds, OfThousandsHoldTheOneThatReachesFartherOnOneSide) {
         }
     }
 }
+
+TEST(ProjectedBounds, AreTheSameForAnyMultipleOfTheMatrix) {
+    glm::dmat4 const clip = clip_from_world(
+        perspective_view(pose_looking(V3(1, 2, 3), V3(0.3, -0.2, -1), V3(0, 1, 0)), 1.2, 1.3, 1.0, 100.0), ClipSpace{});
+    Aabb<double> const box{V3(-3, -2, -9), V3(4, 5, 6)};  // from behind the eye to before it
+    for (double const w_min : {1.0, 0.25}) {
+        Aabb<double> const once = projected_bounds(clip, corners(box), w_min);
+        for (double const scale : {0x1p80, 0x1p-20}) {
+            Aabb<double> const scaled = projected_bounds(clip * scale, corners(box), w_min * scale);
+            EXPECT_LT(glm::length(scaled.lo - once.lo), 1e-12 * glm::length(once.lo));
+            EXPECT_LT(glm::length(scaled.hi - once.hi), 1e-12 * glm::length(once.hi));
+        }
+    }
+}
