@@ -187,3 +187,21 @@ TEST(ProjectedBounds, AreTheSameForAnyMultipleOfTheMatrix) {
         }
     }
 }
+
+TEST(ProjectedBounds, OfABoxWithoutAnEndAlongOneAxisAreThatOfItsSidesOnTheOthers) {
+    float const most = std::numeric_limits<float>::max();
+    glm::mat4 perspective(1.0f);
+    perspective[2][3] = -1.0f;
+    perspective[3][3] = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        Aabb<float> box{glm::vec3(-1, -1, -10), glm::vec3(1, 1, -5)};
+        box.lo[axis] = -most;
+        if (axis < 2) box.hi[axis] = most;
+        Aabb<float> const bounds = projected_bounds(perspective, corners(box), 1.0f);
+        for (int other = 0; other < 2; ++other) {
+            if (other == axis) continue;
+            EXPECT_NEAR(bounds.lo[other], -0.2f, 1e-6f) << axis;
+            EXPECT_NEAR(bounds.hi[other], 0.2f, 1e-6f) << axis;
+        }
+    }
+}
