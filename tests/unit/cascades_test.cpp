@@ -260,11 +260,11 @@ TYPED_TEST(CascadesOf, AKernelWiderThanAQuarterOfTheMapOrThan64TexelsIsOfThatWid
 
 TYPED_TEST(CascadesOf, AFrameBeforeWithFewerMapsHelpsThoseThatItHad) {
     // Of a view that is a little wider: its texels will do.
-    ViewVolume<TypeParam> const view = this->view;
+    ViewVolume<TypeParam> const narrow = this->view;
     this->view.top *= TypeParam(1.03);
     this->view.bottom *= TypeParam(1.03);
     auto before = this->fitted();
-    this->view = view;
+    this->view = narrow;
     before.count = 2;
     auto const after = fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
     auto const fresh = this->fitted();
