@@ -53,7 +53,7 @@ template <class T>
     // Over the largest of them, the product of two gains neither under- nor overflows.
     T largest = T(0);
     for (T const gain : {s.x, s.y, t.x, t.y}) largest = std::abs(gain) > largest ? std::abs(gain) : largest;
-    if (!(largest > T(0)) || !all_finite(&largest, 1) || !all_finite(s) || !all_finite(t)) return {};
+    if (!(largest > T(0)) || !all_finite(s) || !all_finite(t)) return {};
     s = s / largest;
     t = t / largest;
     T const area = (s.x * t.y - s.y * t.x) * T(map_size);

@@ -98,8 +98,9 @@ inline void add(Supports<T>& supports, LightSample<T> const& sample) noexcept {
 template <class T>
 [[nodiscard]] inline Quad<T> quad_at(Supports<T> const& supports, std::array<int, 4> const& direction) noexcept {
     QuadSides<T> sides;
+    static_assert((quad_directions & (quad_directions - 1)) == 0, "whole turns must not matter below zero");
     for (unsigned k = 0; k < 4; ++k) {
-        auto const i = static_cast<unsigned>(direction[k] + 4 * quad_directions) % unsigned(quad_directions);
+        auto const i = static_cast<unsigned>(direction[k]) % unsigned(quad_directions);
         // Coordinates of the frame are about 1 at the samples' ends.
         T const reach = supports.reach[i], slack = T(1e-4) * std::fmax(T(1), std::abs(reach));
         sides[k] = Vec3<T>(-supports.direction[i], reach + slack);

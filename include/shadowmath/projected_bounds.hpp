@@ -44,7 +44,8 @@ template <class T>
     for (unsigned i = 0; i < 8; ++i) {
         if (!all_finite(corners[i])) return {};
         T const reach = glm::max(std::abs(corners[i].x), glm::max(std::abs(corners[i].y), std::abs(corners[i].z)));
-        share[i] = reach > ordinary ? T(1) / reach : T(1);
+        // No farther down than that: 1 / FLT_MAX is no normal number.
+        share[i] = reach > ordinary ? ordinary / reach : T(1);
         point[i] = clip * Vec4<T>(corners[i] * share[i], share[i]);
         largest_w = glm::max(largest_w, point[i].w);
     }

@@ -159,10 +159,10 @@ template <class T>
     axes.fade = t * t * (T(3) - T(2) * t);
     axes.basis = light_basis(travel);
     // Up in the picture weighs no more than the view does where the fade begins: so the two cancel only below.
-    Normalized<T> const rough = safe_normalize(view + across(eye.up) * (none * (T(1) - axes.fade)));
+    Vec3<T> const rough = safe_normalize(view + across(eye.up) * (none * (T(1) - axes.fade))).direction;
     // Across the light once more: what rounding left along it has grown with the normalisation.
-    Normalized<T> const y = safe_normalize(across(rough.direction));
-    if (!rough.ok || !y.ok) return axes;
+    Normalized<T> const y = safe_normalize(across(rough));
+    if (!y.ok) return axes;
     axes.basis.y = y.direction;
     axes.basis.x = glm::cross(travel, y.direction);
     return axes;

@@ -7,6 +7,7 @@
 
 #include <shadowmath/cascades.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -54,6 +55,18 @@ template <class T>
         return glm::length(Vec3<long double>(Vec4<long double>(row(map.clip_from_world, r))));
     };
     return 2 / length(0) * (2 / length(1));
+}
+
+// The longer side of a sun's texel and the way from depth 0 to depth 1, in metres, are those of its matrix; `slack`: in
+// parts of them.
+template <class T>
+[[nodiscard]] bool measures_itself(Cascade<T> const& cascade, CascadeOptions<T> const& options, long double slack) {
+    Mat4<long double> const canonical =
+        canonical_from_clip<long double>(options.clip) * Mat4<long double>(cascade.map.clip_from_world);
+    auto const metres = [&](int r) { return 1 / glm::length(Vec3<long double>(row(canonical, r))); };
+    long double const texel = 2 * std::max(metres(0), metres(1)) / static_cast<long double>(options.map_size);
+    return std::abs(static_cast<long double>(cascade.texel_metres) / texel - 1) <= slack &&
+           std::abs(static_cast<long double>(cascade.depth_metres) / metres(2) - 1) <= slack;
 }
 
 // Where in its texel a world point falls, moved by less than `texels` between two fits.

@@ -5,6 +5,8 @@
   a && b   becomes  ((bool(a) != is(17)) && (bool(b) != is(17))) != is(17)     lazy as before; by De Morgan a || b
   T(0)     becomes  (mutants::is(17) ? T(1) : T(0))
 
+The smaller or the larger of two, a < b ? a : b, becomes the other one: of two that are alike either will do.
+
 tests/mutants/mutants.hpp holds what is called. Operands are found by the layout that clang-format gives all headers: a
 binary operator stands between spaces, a prefix and the bracket of a template do not.
 """
@@ -21,6 +23,8 @@ BINDS = {"*": 10, "/": 10, "%": 10, "+": 9, "-": 9, "<<": 8, ">>": 8, "<": 7, "<
 OPERATORS = {"<": ("less", "<="), "<=": ("less_or_equal", "<"), ">": ("greater", ">="), ">=": ("greater_or_equal", ">"),
              "+": ("plus", "-"), "-": ("minus", "+"), "*": ("times", "/"), "/": ("over", "*"), "==": ("equal", "!="),
              "!=": ("unequal", "=="), "+=": ("add", "-="), "-=": ("subtract", "+=")}
+CHOICES = {"<": ("less_turned", ">"), "<=": ("less_or_equal_turned", ">="), ">": ("greater_turned", "<"),
+           ">=": ("greater_or_equal_turned", "<=")}
 LOGIC = {"&&": "||", "||": "&&"}
 CONSTANTS = {("T", "(", "0", ")"): "T(1)", ("T", "(", "1", ")"): "T(0)", ("T", "(", "2", ")"): "T(3)",
              ("T", "(", "0.5", ")"): "T(0.25)", ("true",): "false", ("false",): "true"}
@@ -152,6 +156,22 @@ def operand_of(tokens, i):
     return k
 
 
+def is_choice(tokens, i, a, b):
+    """Whether the comparison i of a... with ...b chooses between what it compares: the smaller, or the larger."""
+    def text_of(first, last):
+        return [token.text for token in tokens[first:last + 1]]
+
+    if b + 1 >= len(tokens) or tokens[b + 1].text != "?":
+        return False
+    compared = [text_of(a, i - 1), text_of(i + 1, b)]
+    for first, second in (compared, compared[::-1]):
+        colon = b + 2 + len(first)
+        if text_of(b + 2, colon + len(second)) == [*first, ":", *second]:
+            after = tokens[colon + len(second) + 1].text
+            return after in (",", ";", ")", "]", "}")
+    return False
+
+
 def left_alone(tokens, text):
     """The tokens that are no code to be changed: assertions, template heads, aliases, the defaults of members."""
     out = set()
@@ -199,7 +219,8 @@ def mutants_of(header, text, first_number):
                 edits = around(a, b, f"mutants::unite({number}, ", ")", comma)
                 instead, end = "|= {}", min(tokens[b].end, len(text[:token.at]) + len(text[token.at:].split("\n")[0]))
             else:
-                name, instead = OPERATORS[token.text]
+                chooses = token.text in CHOICES and is_choice(tokens, i, a, b)
+                name, instead = (CHOICES if chooses else OPERATORS)[token.text]
                 comma = (token.at, len(token.text), ",", 0, 0)
                 edits, end = around(a, b, f"mutants::{name}({number}, ", ")", comma), token.end
             found.append(Mutant(token.at, end, instead, edits))

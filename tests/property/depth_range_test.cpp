@@ -28,7 +28,18 @@ TYPED_TEST(DepthRangeProperty, FindsTheDepthsThatBoxAndVolumeHaveInCommon) {
         volume.right = *uniform<T>(T(0.2), T(3));
         volume.bottom = -*uniform<T>(T(0.2), T(3));
         volume.top = *uniform<T>(T(0.2), T(3));
-        auto const body = *box<T>(T(10));
+        auto body = *box<T>(T(10));
+        if (*one_in(2)) {
+            // Around a point of the volume.
+            T const across = *uniform<T>(T(0), T(1));
+            T const upward = *uniform<T>(T(0), T(1));
+            T const ahead = *uniform<T>(T(0), T(1));
+            Vec3<T> const middle =
+                point_at(volume, glm::mix(volume.left, volume.right, across),
+                         glm::mix(volume.bottom, volume.top, upward), volume.z_near + length * ahead);
+            Vec3<T> const half = body.hi - body.lo;
+            body = {middle - half, middle + half};
+        }
         // Coordinates up to some 150 m; where faces meet at a grazing angle a rounding counts a hundredfold.
         auto const slack = static_cast<laws::Long>(tolerance(T(150), 1000));
         RC_ASSERT(laws::finds_the_common_depths(body, volume, slack));

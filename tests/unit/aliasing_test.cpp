@@ -61,6 +61,15 @@ TEST(Aliasing, AWarpFromTheEyeIsPerfectAcrossAndFromFarAwayIsNone) {
     expect_near_relative(warped_across(1.0, 1.0, 100.0, best_centre(1.0, 100.0)), 10.0);
 }
 
+TEST(Aliasing, IsThatOfTheFormulaeInNumbers) {
+    // 1600 pixels over a width of 0.8 at a metre, in 1000 texels: two pixels a texel.
+    EXPECT_DOUBLE_EQ(closed_form::pixels_per_texel(1600.0, 0.4, 1000.0), 2.0);
+    // Three maps over a ratio of a thousand: each ends at ten times its beginning.
+    EXPECT_NEAR(closed_form::split_uniform_worst(0.5, 500.0, 3), 9.0, 1e-12);
+    // (2 / 4) (0.25 / 0.5) (6 / 2)^3.
+    EXPECT_DOUBLE_EQ(closed_form::plane_map_area(2.0, 4.0, 0.5, 0.25, 2.0, 6.0), 6.75);
+}
+
 TEST(Aliasing, OutsideItsRangeIsZero) {
     double const nan = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
     EXPECT_EQ(uniform_along(1.0, 0.0, 10.0), 0.0);

@@ -381,3 +381,71 @@ TEST(BiasFor, OptionsThatAreNoNumbersCountAsNone) {
     EXPECT_EQ(bias.slope_texels, none.slope_texels);
     EXPECT_EQ(bias_at(overhead.map, overhead.light, 100, options, Vec3<double>(0)).constant, none.constant);
 }
+
+TEST(Slope, InAMapWithoutExtentIsZeroAndDividesByNothing) {
+    Overhead overhead;
+    Vec4<double> const none(0.0);
+    overhead.map.clip_from_world = from_rows(none, none, none, Vec4<double>(0, 0, 0, 1));
+    auto const run =
+        test::watched([&] { return slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0, 1, 1), 1.0).x; });
+    EXPECT_EQ(run.result, 0.0);
+    EXPECT_TRUE(run.calm_in_range());
+}
+
+// Gains too small, or too large, to be multiplied with each other.
+TEST(Slope, IsThatOfItsTexelsHoweverLargeTheMapsUnitIs) {
+    Overhead const overhead;
+    for (double const unit : {1e-200, 1e200}) {
+        ShadowMap<double> map = overhead.map;
+        for (int r : {0, 1, 2})
+            for (int c : {0, 1, 2}) map.clip_from_world[c][r] *= unit;
+        DepthSlope<double> const s = slope(map, 100, Vec3<double>(0), Vec3<double>(-0.5, 1, 0), 1.0);
+        EXPECT_NEAR(s.x, -0.5 * 0.1 / 40, 1e-15) << unit;
+        EXPECT_NEAR(s.y, 0.0, 1e-15) << unit;
+    }
+}
+
+TEST(DepthGain, BeyondWhatItsTypeHoldsIsZero) {
+    Overhead overhead;
+    Light<double> const aslant = directional(Vec3<double>(1, 1, 1));
+    double const most = std::numeric_limits<double>::max();
+    for (int c : {0, 1, 2}) overhead.map.clip_from_world[c][2] = most;
+    EXPECT_EQ(depth_gain(overhead.map, aslant), 0.0);
+}
+
+TEST(DepthBias, IsNeverNegative) {
+    MapBias<double> bias;
+    bias.constant = -0.25;
+    EXPECT_EQ(depth_bias(bias, 1.0, {}), 0.0);
+    EXPECT_EQ(depth_bias(bias, 1.0, {0.0, 0.0}), 0.0);
+}
+
+TEST(NormalOffsetAt, OfANormalThatIsNotFiniteIsZeroAndRaisesNoFlag) {
+    Overhead const overhead;
+    for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        auto const run = test::watched([&] {
+            return normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(bad, 1, 0),
+                                    1.0);
+        });
+        EXPECT_EQ(run.result, 0.0);
+        EXPECT_TRUE(run.calm_in_range());
+    }
+}
+
+TEST(EndsOfAxis, EndAtInfinityWhereDepthNeverComesToOne) {
+    Light<double> const lamp = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
+    Mat4<double> canonical = spot_map(2, 10).clip_from_world;
+    // Depth now ends at 0.9 times what it would be infinitely far away.
+    for (int c = 0; c < 4; ++c) canonical[c][2] *= 0.9 / 1.25;
+    auto const ends = detail::ends_of_axis(canonical, lamp, 2.5 * 0.9 / 1.25);
+    EXPECT_NEAR(ends.nearest, 0.5, 1e-14);
+    EXPECT_EQ(ends.farthest, 0.0);
+}
+
+TEST(BiasFor, OfASpotInAMapThatKnowsNoDistanceIsWhatTheFormatLoses) {
+    Overhead const overhead;
+    Light<double> const lamp = spot(Vec3<double>(0, 30, 0), Vec3<double>(0, -1, 0), 0.5, 60.0);
+    BiasOptions<double> options;
+    MapBias<double> const bias = bias_for(overhead.map, lamp, 100, options);
+    EXPECT_EQ(bias.constant, 2 * options.depth_step);
+}

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 using namespace shadowmath;
 
@@ -67,6 +68,16 @@ TYPED_TEST(CascadesOf, RectanglesCoverLessThanBoxesAndTheFocusLessThanRectangles
     EXPECT_LT(covered[2], 0.95 * covered[1]);
 }
 
+TYPED_TEST(CascadesOf, TexelsAndDepthAreAsLongAsTheMatrixMakesThem) {
+    using T = TypeParam;
+    for (CascadeFit const fit : {CascadeFit::stable, CascadeFit::tight, CascadeFit::rectangle, CascadeFit::focus}) {
+        this->options.fit = fit;
+        // A row has a handful of roundings of its own.
+        for (auto const& c : this->fitted())
+            EXPECT_TRUE(laws::measures_itself(c, this->options, 32 * std::numeric_limits<T>::epsilon())) << int(fit);
+    }
+}
+
 TYPED_TEST(CascadesOf, RectanglesKeepTheAngleOfTheLastFrame) {
     using T = TypeParam;
     this->options.fit = CascadeFit::rectangle;
@@ -107,11 +118,18 @@ TYPED_TEST(CascadesOf, ASlowZoomKeepsTheTexelsOfStableMaps) {
 
 TYPED_TEST(CascadesOf, TheNearestMapsStayStableBeforeAnyOtherFit) {
     auto const stable = this->fitted();
-    this->options.fit = CascadeFit::rectangle;
-    this->options.steady_maps = 2;
-    auto const mixed = this->fitted();
-    for (int i = 0; i < 4; ++i)
-        EXPECT_EQ(mixed.at[i].map.clip_from_world == stable.at[i].map.clip_from_world, i < 2) << i;
+    for (CascadeFit const fit : {CascadeFit::rectangle, CascadeFit::warped}) {
+        this->options.fit = fit;
+        this->options.steady_maps = 0;
+        auto const other = this->fitted();
+        for (int const steady : {-1, 2, 4, 9}) {
+            this->options.steady_maps = steady;
+            auto const mixed = this->fitted();
+            for (int i = 0; i < 4; ++i)
+                EXPECT_EQ(mixed.at[i].map.clip_from_world, (i < steady ? stable : other).at[i].map.clip_from_world)
+                    << steady << ' ' << i;
+        }
+    }
 }
 
 TYPED_TEST(CascadesOf, WarpedSlicesAreWarpedMaps) {
@@ -147,6 +165,19 @@ TYPED_TEST(CascadesOf, EachMapHasItsShareOfTheWarp) {
     EXPECT_TRUE(broken.at[2].map.visible);
 }
 
+TYPED_TEST(CascadesOf, AWarpThatIsStrongerThanThereIsIsTheStrongest) {
+    using T = TypeParam;
+    this->options.fit = CascadeFit::warped;
+    this->options.warp_strength = T(2);
+    auto const strongest = this->fitted();
+    EXPECT_FALSE(strongest.faults.any());
+    this->options.warp_strength = T(2.5);
+    auto const beyond = this->fitted();
+    EXPECT_TRUE(beyond.faults.has(Fault::clamped_option));
+    auto const growth = [](Cascade<T> const& c) { return glm::length(Vec3<T>(row(c.map.clip_from_world, 3))); };
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(growth(beyond.at[i]) / growth(strongest.at[i]), T(1), T(1e-3)) << i;
+}
+
 TYPED_TEST(CascadesOf, PancakedFocusBeginsWithItsReceivers) {
     this->options.fit = CascadeFit::focus;
     auto const whole = this->fitted();
@@ -160,6 +191,30 @@ TYPED_TEST(CascadesOf, NothingFollowsTheShadowDistance) {
     auto const cascades = this->fitted();
     EXPECT_EQ(cascades.at[cascades.count - 1].range.end, TypeParam(120));
     EXPECT_FALSE(cascades.faults.any());
+}
+
+TYPED_TEST(CascadesOf, AShadowDistanceMayBeLessThanAMetre) {
+    this->options.shadow_distance = TypeParam(0.5);
+    auto const cascades = this->fitted();
+    EXPECT_EQ(cascades.at[cascades.count - 1].range.end, TypeParam(0.5));
+}
+
+TYPED_TEST(CascadesOf, AShadowDistanceThatIsNoneLeavesTheViewsOwnEnd) {
+    using T = TypeParam;
+    for (T const bad : {T(-1), std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
+        this->options.shadow_distance = bad;
+        auto const cascades = this->fitted();
+        EXPECT_TRUE(cascades.faults.has(Fault::clamped_option)) << bad;
+        EXPECT_EQ(cascades.at[cascades.count - 1].range.end, this->view.z_far) << bad;
+    }
+}
+
+TYPED_TEST(CascadesOf, AShadowDistanceThatEndsWhereTheViewBeginsIsAnEmptyRange) {
+    for (TypeParam const part : {TypeParam(0.5), TypeParam(1)}) {
+        this->options.shadow_distance = this->view.z_near * part;
+        EXPECT_TRUE(this->fitted().faults.has(Fault::empty_range));
+        EXPECT_EQ(this->fitted().count, 0);
+    }
 }
 
 TYPED_TEST(CascadesOf, AnEndlessViewNeedsAShadowDistance) {
@@ -189,19 +244,50 @@ TYPED_TEST(CascadesOf, AKernelOfNegativeRadiusIsOneOfNone) {
     EXPECT_EQ(negative.at[0].map.clip_from_world, none.at[0].map.clip_from_world);
 }
 
+TYPED_TEST(CascadesOf, AKernelWiderThanAQuarterOfTheMapOrThan64TexelsIsOfThatWidth) {
+    auto const with = [this](int map_size, int radius) {
+        this->options.map_size = map_size;
+        this->options.filter_radius = radius;
+        return this->fitted();
+    };
+    for (auto const& [size, most] : {std::pair{32, 8}, std::pair{1024, 64}}) {
+        auto const widest = with(size, most), wider = with(size, most + 1);
+        EXPECT_FALSE(widest.faults.any());
+        EXPECT_TRUE(wider.faults.has(Fault::clamped_option));
+        EXPECT_EQ(wider.at[0].map.clip_from_world, widest.at[0].map.clip_from_world);
+    }
+}
+
 TYPED_TEST(CascadesOf, AFrameBeforeWithFewerMapsHelpsThoseThatItHad) {
-    this->options.count = 2;
-    auto const before = this->fitted();
-    this->options.count = 4;
+    // Of a view that is a little wider: its texels will do.
+    ViewVolume<TypeParam> const narrow = this->view;
+    this->view.top *= TypeParam(1.03);
+    this->view.bottom *= TypeParam(1.03);
+    auto before = this->fitted();
+    this->view = narrow;
+    before.count = 2;
     auto const after = fit_cascades(this->view, this->sun, this->world, this->world, this->options, &before);
     auto const fresh = this->fitted();
-    EXPECT_EQ(after.count, 4);
-    for (int i = 2; i < 4; ++i) EXPECT_EQ(after.at[i].map.clip_from_world, fresh.at[i].map.clip_from_world);
+    ASSERT_EQ(after.count, 4);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(after.at[i].texel_metres, i < 2 ? before.at[i].texel_metres : fresh.at[i].texel_metres) << i;
+    EXPECT_NE(before.at[3].texel_metres, fresh.at[3].texel_metres);
 }
 
 TYPED_TEST(CascadesOf, APinnedFirstSplitEndsWhereItIsPinned) {
     this->options.first_split_end = TypeParam(2);
     EXPECT_EQ(this->fitted().at[0].range.end, TypeParam(2));
+}
+
+TYPED_TEST(CascadesOf, BoxesThatAreNotFiniteAreNamedEachAlone) {
+    Aabb<TypeParam> endless = this->world;
+    endless.hi.y = std::numeric_limits<TypeParam>::infinity();
+    for (bool const casters : {true, false}) {
+        auto const cascades = fit_cascades(this->view, this->sun, casters ? endless : this->world,
+                                           casters ? this->world : endless, this->options);
+        EXPECT_TRUE(cascades.faults.has(Fault::not_finite)) << casters;
+        EXPECT_EQ(cascades.count, 0) << casters;
+    }
 }
 
 TYPED_TEST(CascadesOf, NoCastersOrNoReceiversIsNoFault) {
@@ -243,6 +329,8 @@ TYPED_TEST(CascadesOf, CountsOutsideTheCapacityAreClamped) {
     this->options.count = 1000;
     EXPECT_EQ(this->fitted().count, max_splits);
     EXPECT_TRUE(this->fitted().faults.has(Fault::count_clamped));
+    this->options.fit = CascadeFit::warped;
+    for (auto const& c : this->fitted()) EXPECT_TRUE(c.map.visible);
     this->options.count = -3;
     EXPECT_EQ(this->fitted().count, 0);
     EXPECT_TRUE(this->fitted().faults.has(Fault::count_clamped));
@@ -253,6 +341,7 @@ TYPED_TEST(CascadesOf, MapsWithoutRoomForTheFilterAreRefused) {
         this->options.map_size = size;
         auto const cascades = this->fitted();
         EXPECT_TRUE(cascades.faults.has(Fault::map_too_small)) << size;
+        EXPECT_EQ(cascades.count, 0) << size;
         for (auto const& c : cascades) EXPECT_FALSE(c.map.visible) << size;
     }
     this->options.map_size = 1000;  // no power of two
@@ -284,6 +373,7 @@ TYPED_TEST(CascadesOf, ABlendOutsideItsRangeIsTheNearestOne) {
     };
     auto const whole = with(T(1)), none = with(T(0));
     EXPECT_FALSE(whole.faults.any()) << "from end to end is a blend too";
+    EXPECT_FALSE(none.faults.any()) << "and so is none";
     EXPECT_EQ(whole.at[1].range.blend_begin, whole.at[0].range.end);
     EXPECT_EQ(none.at[1].range.blend_begin, none.at[1].range.end);
     EXPECT_EQ(with(T(7)).at[1].range.blend_begin, whole.at[1].range.blend_begin);

@@ -72,6 +72,26 @@ TEST(CasterMask, OfASphereIsThatOfTheBall) {
     EXPECT_EQ(caster_mask(maps, Sphere<double>{V3(900, 5, 0), nan}), 0b111);
 }
 
+TEST(CasterMask, OfASphereIsThatOfTheBallUnderAnyLight) {
+    for (V3 const& travel : {V3(1, -1, 1), V3(0.3, -1, 0.2), V3(-1, -0.2, 0.5), V3(0.1, 0.9, -0.7)}) {
+        LightBox<double> box;
+        box.basis = light_basis(glm::normalize(travel));
+        box.lo = glm::dvec2(-4), box.hi = glm::dvec2(4);
+        box.depth_lo = -20, box.depth_hi = 0;
+        ShadowMap<double> map;
+        map.clip_from_world = clip_from_world(box, gl_clip);
+        map.visible = true;
+        CasterMaps<double> const maps = caster_maps(&map, 1);
+        V3 const middle = box.basis.depth * -10.0;
+        for (V3 const& aside : {box.basis.x, -box.basis.x, box.basis.y, -box.basis.y}) {
+            EXPECT_EQ(caster_mask(maps, Sphere<double>{middle + aside * 6.999, 3.0}), 1);
+            EXPECT_EQ(caster_mask(maps, Sphere<double>{middle + aside * 7.001, 3.0}), 0);
+        }
+        EXPECT_EQ(caster_mask(maps, Sphere<double>{box.basis.depth * 2.999, 3.0}), 1);
+        EXPECT_EQ(caster_mask(maps, Sphere<double>{box.basis.depth * 3.001, 3.0}), 0);
+    }
+}
+
 TEST(CasterMask, OfASpotKnowsTheConeAndThePlaneThroughTheLamp) {
     // At (0, 10, 0), looking down, 90 degrees wide.
     ViewVolume<double> const view =
@@ -202,6 +222,18 @@ TEST(CasterMasks, AreThoseOfTheBoxesOneByOneForAnyLengthAndAnyStart) {
                 EXPECT_EQ(masks[static_cast<std::size_t>(i)], caster_mask(casters, box)) << start << ' ' << i;
             }
         }
+}
+
+TEST(CasterMasks, OfNoMapsAreNothingAndOfABoxBeyondReachEverything) {
+    constexpr int count = detail::boxes_at_once;
+    std::vector<double> lo(count, -1.0), hi(count, 1.0);
+    BoxArrays<double> const boxes{lo.data(), lo.data(), lo.data(), hi.data(), hi.data(), hi.data()};
+    std::vector<MapMask> masks(count, MapMask(0xffff));
+    caster_masks(CasterMaps<double>{}, boxes, count, masks.data());
+    for (MapMask const mask : masks) EXPECT_EQ(mask, 0);
+    lo[5] = 1e30, hi[5] = 2e30;
+    caster_masks(three_squares(), boxes, count, masks.data());
+    for (int i = 0; i < count; ++i) EXPECT_EQ(masks[std::size_t(i)], 0b111) << i;
 }
 
 TEST(MapRange, SpansTheBitsOfTheMask) {

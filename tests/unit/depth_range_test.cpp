@@ -36,6 +36,65 @@ TYPED_TEST(DepthRangeOf, ATowerOnTheGroundIsFromItsTopToTheGroundsBottom) {
     EXPECT_TRUE(this->close(range.hi, 3));
 }
 
+// A wall without visible edges is as deep as the corner edges of the volume are, where they go in and come out.
+TYPED_TEST(DepthRangeOf, AWallBeginsAndEndsWhereTheCornerEdgesPierceIt) {
+    using T = TypeParam;
+    using Long = long double;
+    Aabb<T> const wall{Vec3<T>(-500, -500, -10), Vec3<T>(500, 500, -9)};
+    Pose<T> const pose = pose_looking(Vec3<T>(1, 2, 0), Vec3<T>(T(0.6), T(0.4), T(-1)), Vec3<T>(T(0.2), 1, 0));
+    ViewVolume<T> seen = perspective_view(pose, T(1), T(1), T(0.1), T(100));
+    seen.left = T(-0.2), seen.right = T(0.5), seen.bottom = T(-0.6), seen.top = T(0.1);
+    ViewVolume<T> const flat = orthographic_view(pose, T(-1), T(3), T(-4), T(0.5), T(0.1), T(100));
+    for (ViewVolume<T> const& volume : {seen, flat}) {
+        bool const spreads = volume.kind == ViewKind::perspective;
+        Long lo = 1e9L, hi = -1e9L;
+        for (T const x : {volume.left, volume.right})
+            for (T const y : {volume.bottom, volume.top}) {
+                Long const aside = Long(pose.right.z) * x + Long(pose.up.z) * y;
+                Long const from = Long(pose.position.z) + (spreads ? 0 : aside);
+                Long const step = Long(pose.forward.z) + (spreads ? aside : 0);
+                lo = std::min(lo, (-9 - from) / step);
+                hi = std::max(hi, (-10 - from) / step);
+            }
+        DepthRange<T> const range = depths_inside(wall, volume);
+        EXPECT_TRUE(this->close(range.lo, lo)) << spreads;
+        EXPECT_TRUE(this->close(range.hi, hi)) << spreads;
+    }
+}
+
+TYPED_TEST(DepthRangeOf, DepthsAreTheSameInAnyUnit) {
+    using T = TypeParam;
+    auto const of = [](T unit) {
+        Pose<T> const pose =
+            pose_looking(Vec3<T>(1, 2, 0) * unit, Vec3<T>(T(0.6), T(0.4), T(-1)), Vec3<T>(T(0.2), 1, 0));
+        Aabb<T> const wall{Vec3<T>(-500, -500, -10) * unit, Vec3<T>(500, 500, -9) * unit};
+        return depths_inside(wall, perspective_view(pose, T(1), T(1), T(0.1) * unit, T(100) * unit));
+    };
+    DepthRange<T> const metres = of(T(1));
+    for (T const unit : {T(1) / 4096, T(4096)}) {
+        DepthRange<T> const scaled = of(unit);
+        ASSERT_TRUE(scaled.visible);
+        EXPECT_TRUE(this->close(scaled.lo / unit, metres.lo));
+        EXPECT_TRUE(this->close(scaled.hi / unit, metres.hi));
+    }
+}
+
+TYPED_TEST(DepthRangeOf, APlateThroughTheEyeIsSeenFromTheNearEndToItsOwn) {
+    using T = TypeParam;
+    ViewVolume<T> const view = perspective_view(Pose<T>{}, T(1), T(1), T(0.05), T(100));
+    Aabb<T> const plate{Vec3<T>(T(-0.2), T(0), T(-0.2)), Vec3<T>(T(0.2), T(0), T(0.2))};
+    DepthRange<T> const range = depths_inside(plate, view);
+    ASSERT_TRUE(range.visible);
+    EXPECT_EQ(range.lo, view.z_near);
+    EXPECT_TRUE(this->close(range.hi, T(0.2), 1));
+}
+
+TYPED_TEST(DepthRangeOf, InAxesThatAreNoneNothingIsSeen) {
+    using T = TypeParam;
+    this->sides.basis.x = Vec3<T>(0);
+    EXPECT_FALSE(this->range(this->tower, this->ground).visible);
+}
+
 TYPED_TEST(DepthRangeOf, PancakeStartsAtTheFirstReceiver) {
     auto const range = this->range(this->tower, this->ground, true);
     EXPECT_TRUE(this->close(range.lo, 1));

@@ -78,6 +78,35 @@ TEST(Filter, BadNumbersAndSizesAreLit) {
     EXPECT_TRUE(laws::is_share(filtered(good, 16, plain, {1000000000, true}, black)));
 }
 
+TEST(Filter, OfANumberWithoutAnEndIsLitEachAlone) {
+    double const inf = std::numeric_limits<double>::infinity();
+    auto const of = [](Vec2<double> at, double depth, DepthSlope<double> slope) {
+        return filtered(Receiver<double>{at, depth, slope}, 16, plain, {1, true}, [](int, int) { return 0.25; });
+    };
+    Vec2<double> const middle(8.0);
+    EXPECT_EQ(of(middle, 0.5, {}), 0.0);
+    EXPECT_EQ(of(middle, inf, {}), 1.0);
+    EXPECT_EQ(of(middle, 0.5, {inf, 0.0}), 1.0);
+    EXPECT_EQ(of(middle, 0.5, {0.0, inf}), 1.0);
+    EXPECT_EQ(of(Vec2<double>(inf, 8.0), 0.5, {}), 1.0);
+}
+
+TEST(Filter, TakesTheLargestMap) {
+    Receiver<double> const receiver{Vec2<double>(8.0), 0.5, {}};
+    auto const near_by = [](int, int) { return 0.25; };
+    EXPECT_EQ(filtered(receiver, largest_map_size, plain, {1, true}, near_by), 0.0);
+    EXPECT_EQ(filtered(receiver, largest_map_size + 1, plain, {1, true}, near_by), 1.0);
+}
+
+// A plane that rises along both axes is lit a hair before itself, and dark a hair behind.
+TEST(Filter, TapsFollowThePlaneAlongBothAxes) {
+    DepthSlope<double> const slope{0.01, 0.02};
+    auto const plane = [&](int x, int y) { return 0.5 + slope.x * (x + 0.5 - 8.3) + slope.y * (y + 0.5 - 7.8); };
+    for (double const off : {-1e-9, 1e-9})
+        EXPECT_EQ(filtered(Receiver<double>{Vec2<double>(8.3, 7.8), 0.5 + off, slope}, 16, plain, {2, true}, plane),
+                  off < 0 ? 1.0 : 0.0);
+}
+
 TEST(Filter, TapsFollowThePlaneAndNotThePoint) {
     // Depth rises by 0.01 a texel along x; the map holds exactly that plane.
     Receiver<double> const receiver{Vec2<double>(8.25, 8.75), 0.4 + 0.01 * 8.25 - 1e-12, {0.01, 0.0}};

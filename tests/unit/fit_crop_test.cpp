@@ -43,7 +43,7 @@ TYPED_TEST(FitCrop, OfNothingShowsNothing) {
     EXPECT_EQ(crop_matrix(Aabb<T>{}), nowhere<T>());
     EXPECT_EQ(crop_matrix(Aabb<T>{Vec3<T>(nan), Vec3<T>(1)}), nowhere<T>());
     EXPECT_EQ(crop_matrix(Aabb<T>{Vec3<T>(-huge), Vec3<T>(huge)}), nowhere<T>());
-    EXPECT_TRUE(laws::finite(crop_matrix(Aabb<T>{Vec3<T>(T(0.3)), Vec3<T>(T(0.3))})));
+    for (T const at : {T(0.3), T(0)}) EXPECT_TRUE(laws::finite(crop_matrix(Aabb<T>{Vec3<T>(at), Vec3<T>(at)}))) << at;
 }
 
 TYPED_TEST(FitCrop, SceneIndependentBoxStartsAtTheLight) {
@@ -103,6 +103,32 @@ TYPED_TEST(FitCrop, TheWholeConeIsAPyramidFromTheNearPlaneToTheRange) {
         EXPECT_TRUE(laws::finite(spot_clip_from_world(this->lamp, z_near, gl_clip)));
     T const nan = std::numeric_limits<T>::quiet_NaN();
     EXPECT_EQ(spot_clip_from_world(this->lamp, nan, gl_clip), nowhere<T>());
+}
+
+TYPED_TEST(FitCrop, ASpotsNearPlaneLiesBetweenAMillionthAndHalfOfItsRange) {
+    using T = TypeParam;
+    EXPECT_EQ(spot_view(this->lamp, T(19)).z_near, T(10));
+    EXPECT_EQ(spot_view(this->lamp, T(0)).z_near, T(20) / T(1 << 20));
+    EXPECT_EQ(spot_view(this->lamp, T(3)).z_near, T(3));
+}
+
+TYPED_TEST(FitCrop, AConeBeyondReachIsNowhereByItsPlaceOrItsRangeAlone) {
+    using T = TypeParam;
+    Light<T> far_out = this->lamp, endless = this->lamp;
+    far_out.position.x = T(1e19);
+    endless.range = T(1e18);
+    EXPECT_EQ(spot_clip_from_world(far_out, T(1), gl_clip), nowhere<T>());
+    EXPECT_EQ(spot_clip_from_world(endless, T(1), gl_clip), nowhere<T>());
+}
+
+TYPED_TEST(FitCrop, AnEndlessViewSeesAWideConeToItsRim) {
+    using T = TypeParam;
+    this->lamp.half_angle_radians = T(1.4);
+    this->view.z_far = std::numeric_limits<T>::infinity();
+    ShadowMap<T> const map = this->fit(this->crate, this->floor);
+    ASSERT_TRUE(map.visible);
+    // 10 m below the lamp the light reaches 58 m out.
+    EXPECT_TRUE(laws::serves(map, 1024, T(2), Vec3<T>(0, 0, -49), T(1e-3)));
 }
 
 TYPED_TEST(FitCrop, ASpotStartsAtItsFirstCasterAndEndsAtItsLastReceiver) {

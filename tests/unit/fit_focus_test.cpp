@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 using namespace shadowmath;
@@ -52,6 +53,61 @@ TEST(FitFocus, CullsWhatCastsBesideTheSlice) {
     // Behind the eye, and low beside the view where its shadow falls short.
     EXPECT_FALSE(may_meet(focus.casters, Aabb<double>{V3(-11, 10, 3), V3(-9, 12, 5)}));
     EXPECT_FALSE(may_meet(focus.casters, Aabb<double>{V3(-40, 0, -21), V3(-39, 2, -19)}));
+}
+
+TEST(FitFocus, IsNoDeeperThanTheCastersWhoseShadowsFallOnIt) {
+    // Light at 45 degrees: what shadows (2, 0) and is not before x = -10 is 12 m up.
+    Aabb<double> const patch{V3(0, 0, -21), V3(2, 0, -19)}, hall{V3(-10, 0, -500), V3(500, 40, 500)};
+    Focus<double> const focus = focus_of(level_slice(), directional(V3(1, -1, 0)), hall, patch);
+    ASSERT_TRUE(focus.visible);
+    EXPECT_TRUE(focus.depth.visible);
+    EXPECT_NEAR(focus.depth.lo, (-10 - 12) / std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(focus.depth.hi, 2 / std::sqrt(2.0), 2e-6);
+}
+
+TEST(FitFocus, ReachesCastersHighAboveASliceAroundTheOrigin) {
+    // From 10 m before the origin to 10 m behind it, 20 m wide and high.
+    ViewVolume<double> const slice =
+        orthographic_view(pose_looking(V3(0, 0, 20), V3(0, 0, -1), V3(0, 1, 0)), -10.0, 10.0, -10.0, 10.0, 10.0, 30.0);
+    Aabb<double> const tower{V3(-1, 0, -1), V3(1, 500, 1)}, floor{V3(-50, -1, -50), V3(50, 0, 50)};
+    EXPECT_NEAR(focus_of(slice, overhead, tower, floor).depth.lo, -500, 1e-6);
+}
+
+TEST(FitFocus, CountsACasterThatOnlyTouchesTheLightOfItsReceivers) {
+    Aabb<double> const column{V3(-1, 0, -21), V3(1, 9, -19)};
+    Focus<double> const focus = focus_of(level_slice(), overhead, column, ground);
+    EXPECT_TRUE(may_meet(focus.casters, Aabb<double>{V3(1, 5, -20), V3(3, 6, -19.5)}));
+    EXPECT_FALSE(may_meet(focus.casters, Aabb<double>{V3(1.001, 5, -20), V3(3, 6, -19.5)}));
+}
+
+// In millimetres as in kilometres: room for rounding is a share of the scene.
+TEST(FitFocus, IsTheSameInAnyUnit) {
+    auto const of = [](float unit) {
+        auto const box = [unit](glm::vec3 lo, glm::vec3 hi) { return Aabb<float>{lo * unit, hi * unit}; };
+        ViewVolume<float> const slice =
+            perspective_view(pose_looking(glm::vec3(0, 2, 0) * unit, glm::vec3(0, 0, -1), glm::vec3(0, 1, 0)), 1.0f,
+                             1.6f, 5.0f * unit, 40.0f * unit);
+        return focus_of(slice, directional(glm::vec3(1, -2, 0.5f)), box(glm::vec3(-30, 0, -60), glm::vec3(30, 12, 10)),
+                        box(glm::vec3(-30, 0, -60), glm::vec3(30, 3, 10)));
+    };
+    Focus<float> const metres = of(1.0f);
+    ASSERT_TRUE(metres.visible);
+    for (float const unit : {1.0f / 1024, 1024.0f}) {
+        Focus<float> const scaled = of(unit);
+        ASSERT_TRUE(scaled.visible);
+        float const depth = metres.depth.hi - metres.depth.lo;
+        EXPECT_NEAR((scaled.depth.hi - scaled.depth.lo) / unit / depth, 1.0f, 1e-5f) << unit;
+        EXPECT_NEAR(scaled.first_receiver / unit, metres.first_receiver, 1e-5f * depth) << unit;
+    }
+}
+
+TEST(FitFocus, InAxesThatAreNoneIsTheBoxOfNothing) {
+    Focus<double> const focus = focus_of(level_slice(), overhead, world, ground);
+    ASSERT_TRUE(focus.visible);
+    LightBasis<double> none = axes;
+    none.x = V3(0);
+    EXPECT_EQ(fit_focus(none, focus, 1024, 0.0).lo, glm::dvec2(-1));
+    EXPECT_EQ(fit_focus(none, focus, 1024, 0.0).depth_hi, 1.0);
 }
 
 TEST(FitFocus, IsPaddedForFilterAndSun) {

@@ -158,7 +158,9 @@ TEST(FitQuad, ATexelOfABoxIsAsLongAsItsLongerSide) {
         sample.gain_y = V2(-std::sin(angle), std::cos(angle)) * 500.0;
         EXPECT_NEAR(major_at(box({-2, -1}, {2, 1}), 1000.0, sample), 2.0, 1e-12);
     }
-    sample.gain_x = V2(0);
+    sample.gain_x *= 1e-9, sample.gain_y *= 1e-9;
+    EXPECT_NEAR(major_at(box({-2, -1}, {2, 1}), 1000.0, sample), 2e-9, 1e-21) << "far below a pixel too";
+    sample.gain_x = V2(0), sample.gain_y *= 1e9;
     EXPECT_NEAR(major_at(box({-2, -1}, {2, 1}), 1000.0, sample), 1.0, 1e-12) << "seen edge-on along x";
 }
 
@@ -230,6 +232,21 @@ TEST(FitQuad, TheFrameOfNoneOrOfOnePlaceIsFinite) {
     EXPECT_GT(glm::length(one.a), 0.0);
 }
 
+TEST(FitQuad, TheFrameOfALineIsTenThousandTimesAsLongAsWide) {
+    auto const samples = even_rectangle(V2(3, 4), 5.0, 0.0, 0.0);
+    auto const list = list_of(samples.size());
+    SampleFrame<double> const frame = frame_of(samples.data(), list.data(), int(list.size()));
+    EXPECT_NEAR(glm::length(frame.a), 1.0 / 5.0, 1e-12);
+    EXPECT_NEAR(glm::length(frame.b), 1e4 / 5.0, 1e-9);
+}
+
+TEST(FitQuad, DirectionsRunFromOneAxisOfTheFrameToTheOther) {
+    SampleFrame<double> const frame{V2(0), V2(0.5, 0), V2(0.1, 2)};
+    Supports<double> const supports = no_supports(frame);
+    EXPECT_NEAR(glm::length(supports.direction[0] - frame.a), 0.0, 1e-15);
+    EXPECT_NEAR(glm::length(supports.direction[quad_directions / 4] - frame.b), 0.0, 1e-15);
+}
+
 TEST(FitQuad, SupportsAreTheFarthestPlacesInAnyOrder) {
     Cloud const cloud;
     Supports<double> backward = no_supports(cloud.supports.frame), corners = backward;
@@ -296,6 +313,9 @@ TEST(FitQuad, AStrideLeavesSamplesOutOfThePriceNeverOutOfTheMap) {
         ASSERT_TRUE(fit.quad.visible) << stride;
         for (auto const& sample : cloud.samples) EXPECT_TRUE(is_in(fit.quad, sample.place)) << stride;
     }
+    double const half =
+        fit_quad(cloud.supports, cloud.samples.data(), cloud.list.data(), int(cloud.list.size()), 1020.0, 2).price;
+    EXPECT_NEAR(half / cloud.fit().price, 1.0, 0.1) << "every other sample counts twice";
 }
 
 TEST(FitQuad, SamplesWithoutAWeightAreHeldAndCostNothing) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -124,6 +125,25 @@ TEST(FitRectangle, OfNothingIsTheUnitBox) {
     auto const box = fit_rectangle(overhead, ConvexBody<double>{}, 1024, 2.0);
     EXPECT_EQ(box.lo, V2(-1));
     EXPECT_EQ(box.hi, V2(1));
+}
+
+TEST(FitRectangle, OfABodyBeyondReachIsTheUnitBox) {
+    ConvexBody<double> body = plank(0.3);
+    for (auto& edge : body.edges) edge.a *= 1e19, edge.b *= 1e19;
+    EXPECT_EQ(fit_rectangle(overhead, body, 1024, 0.0).lo, V2(-1));
+}
+
+// Neither a last direction that is no number nor a patience that is none counts.
+TEST(FitRectangle, HoldsToNoAngleThatIsNone) {
+    double const nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    auto const body = slice_seen(0.7);
+    auto const free = fit_rectangle(overhead, body, 1024, 0.0);
+    EXPECT_EQ(angle_of(fit_rectangle(overhead, body, 1024, 0.0, V3(nan, 0, 0), 10.0)), angle_of(free));
+    // An angle that is nearly as good as the best.
+    V3 const last = free.basis.x * std::cos(0.03) + free.basis.y * std::sin(0.03);
+    EXPECT_GT(area(fit_rectangle(overhead, body, 1024, 0.0, last, 10.0)), area(free));
+    for (double const patience : {nan, inf, -0.5})
+        EXPECT_EQ(area(fit_rectangle(overhead, body, 1024, 0.0, last, patience)), area(free)) << patience;
 }
 
 TEST(FitRectangle, NeitherAllocatesNorRaisesAFlag) {

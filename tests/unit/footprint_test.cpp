@@ -194,6 +194,23 @@ TEST(Footprint, OfAPictureOfHalfAPixelIsNotNothing) {
     EXPECT_GT(half.major, 0.0);
 }
 
+TEST(Footprint, InAMapOfOneTexelIsThatOfItsSize) {
+    Vec3<double> const point(10, -1, 0), up(0, 1, 0);
+    double const one = footprint(eye(), Vec2<double>(pixels), uniform_map(n, f), 1.0, point, up).major;
+    EXPECT_NEAR(one, 4.0 * footprint(eye(), Vec2<double>(pixels), uniform_map(n, f), 4.0, point, up).major, 1e-9 * one);
+}
+
+// Pixels a metre beyond what the type holds, along one axis of the picture.
+TEST(Footprint, OfAPictureTooLargeForItsTypeIsNothing) {
+    double const most = std::numeric_limits<double>::max();
+    for (Vec2<double> const& size : {Vec2<double>(most, pixels), Vec2<double>(pixels, most)}) {
+        Footprint<double> const none =
+            footprint(eye(), size, uniform_map(n, f), texels, Vec3<double>(0.6, -0.9, 0), Vec3<double>(0, 1, 0));
+        EXPECT_EQ(none.major, 0.0);
+        EXPECT_EQ(none.minor, 0.0);
+    }
+}
+
 TEST(PriceOf, IsATenthOfAFineTexelAndEndsWhereTheShadowIsLost) {
     EXPECT_NEAR(price_of(1.0), 0.1, 1e-15);
     EXPECT_NEAR(price_of(1.4), 0.14, 1e-15);

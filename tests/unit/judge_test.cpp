@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/judge.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/aliasing.hpp>
 
@@ -200,4 +201,34 @@ TEST(Judge, LeavesOutWhatHasNoFootprint) {
     auto const cascades = fit_cascades(view, overhead, everything, everything, options);
     SurfacePoint<double> const without_a_side{point_at(view, 0.0, 0.0, 10.0), V3(0)};
     EXPECT_EQ(judge(cascades, options.map_size, view, pixels, &without_a_side, 1).all.count, 0);
+}
+
+// A ray along an axis never meets the sides of a box beside it, nor divides by the way that it does not go.
+TEST(DepthsInBox, OfARayAlongAnAxisAreThoseOfTheBoxAroundIt) {
+    ViewVolume<double> const view = orthographic_view(Pose<double>{}, -1.0, 1.0, -1.0, 1.0, 1.0, 101.0);
+    auto const met = [&](Vec3<double> const& lo, Vec3<double> const& hi) {
+        auto const run = test::watched([&] { return depths_in_box(view, 0.0, 0.0, Aabb<double>{lo, hi}); });
+        EXPECT_TRUE(run.calm_in_range());
+        return run.result.first <= run.result.last;
+    };
+    using V3 = Vec3<double>;
+    EXPECT_TRUE(met(V3(-0.5, -0.5, -20), V3(0.5, 0.5, -10)));
+    EXPECT_TRUE(met(V3(0, 0, -20), V3(0.5, 0.5, -10)));
+    EXPECT_FALSE(met(V3(0.5, -0.5, -20), V3(0.9, 0.5, -10)));
+    EXPECT_FALSE(met(V3(-0.5, 0.5, -20), V3(0.5, 0.9, -10)));
+    EXPECT_FALSE(met(V3(-0.9, -0.5, -20), V3(-0.5, 0.5, -10)));
+    EXPECT_FALSE(met(V3(-0.5, -0.9, -20), V3(0.5, -0.5, -10)));
+}
+
+TEST(StillGood, IsAMapWhoseWorstTexelIsNoLargerThanAFewPixelsHoweverFineItWas) {
+    Worth<double> drawn, now;
+    drawn.worst = 0.2;
+    now.worst = 1.4;
+    EXPECT_TRUE(still_good(drawn, now));
+    now.worst = 1.6;
+    EXPECT_FALSE(still_good(drawn, now));
+    drawn.worst = 2.0;
+    EXPECT_TRUE(still_good(drawn, now));
+    now.unserved = 1;
+    EXPECT_FALSE(still_good(drawn, now));
 }

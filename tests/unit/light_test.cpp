@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+
 using namespace shadowmath;
 
 namespace {
@@ -99,4 +102,22 @@ TEST(Light, NamesWhicheverNumberIsNone) {
 TEST(Light, OfAnyRangeAboveNoneIsOne) {
     EXPECT_FALSE(spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 0.25).faults.any());
     EXPECT_TRUE(spot(Vec3<double>(0.0), Vec3<double>(0, -1, 0), 0.5, 0.0).faults.has(Fault::empty_range));
+}
+
+TEST(Light, OfAPlaceOrAnAngleThatIsNoNumberSaysSo) {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    glm::dvec3 const down(0, -1, 0);
+    EXPECT_EQ(spot(glm::dvec3(nan, 0, 0), down, 0.5, 10.0).faults, Faults(Fault::not_finite));
+    EXPECT_EQ(spot(glm::dvec3(0), down, nan, 10.0).faults, Faults(Fault::not_finite));
+    EXPECT_EQ(spot(glm::dvec3(0), down, 0.5, nan).faults, Faults(Fault::not_finite));
+}
+
+TEST(Light, OfAConeOutsideItsRangeHasTheNearestAndSaysSo) {
+    glm::dvec3 const down(0, -1, 0);
+    for (auto const& [asked, given] : {std::pair{0.5e-3, 1e-3}, std::pair{-1.0, 1e-3}, std::pair{2.0, 1.5}}) {
+        Light<double> const light = spot(glm::dvec3(0), down, asked, 10.0);
+        EXPECT_EQ(light.half_angle_radians, given);
+        EXPECT_EQ(light.faults, Faults(Fault::cone_clamped));
+    }
+    EXPECT_FALSE(spot(glm::dvec3(0), down, 1.5, 10.0).faults.any());
 }

@@ -92,3 +92,21 @@ TEST(Moments, MeanOfABadMapOrPlaceIsThatOfTheOutside) {
          {Vec2<double>(-2.1, 8), Vec2<double>(18.1, 8), Vec2<double>(8, -2.1), Vec2<double>(8, 18.1)})
         EXPECT_EQ(mean_moments(beside, 16, 1, 1.0, inside), 1.0);
 }
+
+TEST(Moments, OfATexelAreThoseOfItsColumnAndItsRow) {
+    auto const places = [](int x, int y) { return Vec2<double>(x, y); };
+    auto const at = [&](double x, double y, int size) {
+        return mean_moments(Vec2<double>(x, y), size, 0, Vec2<double>(-1.0), places);
+    };
+    EXPECT_EQ(at(3.4, 5.6, 16), Vec2<double>(3, 5));
+    EXPECT_EQ(at(0.5, 0.5, 1), Vec2<double>(0, 0)) << "the smallest map";
+    EXPECT_EQ(at(7.5, 9.5, largest_map_size), Vec2<double>(7, 9)) << "and the largest";
+    EXPECT_EQ(at(7.5, 9.5, largest_map_size + 1), Vec2<double>(-1.0));
+}
+
+TEST(Moments, LessBleedingOfWhatIsNoNumberIsLit) {
+    for (double const bad : {not_a_number, infinity}) {
+        EXPECT_EQ(less_bleeding(bad, 0.2), 1.0);
+        EXPECT_EQ(less_bleeding(0.1, bad), 1.0);
+    }
+}

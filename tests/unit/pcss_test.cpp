@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/pcss.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/light_box.hpp>
 
@@ -156,6 +157,92 @@ TEST(Pcss, BadNumbersAreLit) {
     EXPECT_EQ(soft_filtered(good, 1.0, scene.penumbra, size, scene.map.clip, odd, black).visibility, 0.0);
     auto const nothing = [](int, int) { return not_a_number; };
     EXPECT_EQ(soft_filtered(good, 1.0, scene.penumbra, size, scene.map.clip, odd, nothing).visibility, 1.0);
+}
+
+TEST(Pcss, AnyNumberWithoutAnEndIsLitAlone) {
+    Overhead const scene;
+    double const inf = std::numeric_limits<double>::infinity();
+    auto const black = [](int, int) { return 0.0; };
+    Receiver<double> const good{Vec2<double>(256.0), 0.5, {}};
+    auto const seen = [&](Receiver<double> const& receiver, MapPenumbra<double> const& penumbra) {
+        return soft_filtered(receiver, 1.0, penumbra, size, scene.map.clip, PcssOptions<double>{}, black);
+    };
+    EXPECT_EQ(seen(good, scene.penumbra).visibility, 0.0);
+    for (DepthSlope<double> const& slope : {DepthSlope<double>{inf, 0}, DepthSlope<double>{0, inf}})
+        EXPECT_FALSE(seen({good.texel, 0.5, slope}, scene.penumbra).blocked);
+    EXPECT_FALSE(seen({good.texel, inf, {}}, scene.penumbra).blocked);
+    for (int member = 0; member < 5; ++member) {
+        MapPenumbra<double> bad = scene.penumbra;
+        (member == 0   ? bad.rim_x.x
+         : member == 1 ? bad.rim_y.y
+         : member == 2 ? bad.depth_of_gap
+                       : bad.largest_gap) = inf;
+        if (member == 4) bad.largest_gap = not_a_number;
+        EXPECT_EQ(seen(good, bad).visibility, 1.0) << member;
+        EXPECT_FALSE(seen(good, bad).blocked) << member;
+    }
+    MapPenumbra<double> none = scene.penumbra;
+    none.depth_of_gap = 0.0;
+    auto const run = test::watched([&] { return seen(good, none); });
+    EXPECT_FALSE(run.result.blocked);
+    EXPECT_TRUE(run.calm_in_range());
+    auto const behind = test::watched(
+        [&] { return soft_filtered(good, 0.0, scene.penumbra, size, scene.map.clip, PcssOptions<double>{}, black); });
+    EXPECT_FALSE(behind.result.blocked);
+    EXPECT_TRUE(behind.calm_in_range());
+}
+
+TEST(Pcss, KnowsTheSmallestMapAndTheLargest) {
+    Overhead const scene;
+    auto const black = [](int, int) { return 0.0; };
+    for (int const side : {1, largest_map_size}) {
+        Receiver<double> const middle{Vec2<double>(side * 0.5), 0.5, {}};
+        EXPECT_TRUE(
+            soft_filtered(middle, 1.0, scene.penumbra, side, scene.map.clip, PcssOptions<double>{}, black).blocked);
+    }
+}
+
+TEST(Pcss, ATexelIsInTheMapFromTheFirstToTheLast) {
+    auto const none = [](int, int) { return 1.0; };
+    detail::TapMap<double, decltype(none)> const map{none, 8, false};
+    for (int const inside : {0, 7}) EXPECT_TRUE(map.holds(inside, inside));
+    for (int const outside : {-1, 8}) {
+        EXPECT_FALSE(map.holds(outside, 4));
+        EXPECT_FALSE(map.holds(4, outside));
+    }
+    Vec2<double> texel;
+    for (double const inside : {-0.99, 8.99}) {
+        EXPECT_TRUE(detail::texel_of(Vec4<double>(inside / 8, 0.5, 0, 1), 8, texel)) << inside;
+        EXPECT_TRUE(detail::texel_of(Vec4<double>(0.5, inside / 8, 0, 1), 8, texel)) << inside;
+    }
+    for (double const outside : {-1.01, 9.01}) {
+        EXPECT_FALSE(detail::texel_of(Vec4<double>(outside / 8, 0.5, 0, 1), 8, texel)) << outside;
+        EXPECT_FALSE(detail::texel_of(Vec4<double>(0.5, outside / 8, 0, 1), 8, texel)) << outside;
+    }
+}
+
+// From beside the map what is in it counts, and what is not counts for nothing.
+TEST(Pcss, AReceiverBesideTheMapSeesTheOccludersInItAlone) {
+    Overhead const scene;
+    Receiver<double> const beside{Vec2<double>(-6.0, 256.0), 0.9, {}};
+    auto const seen = [&](double stored) {
+        return soft_filtered(beside, 1.0, scene.penumbra, size, scene.map.clip, many,
+                             [stored](int, int) { return stored; });
+    };
+    EXPECT_FALSE(seen(1.0).blocked);
+    ASSERT_TRUE(seen(0.4).blocked);
+    EXPECT_NEAR(seen(0.4).gap, 5.0, 1e-9);
+}
+
+TEST(Pcss, WhatIsBlockedNowhereInItsDiskIsLit) {
+    Overhead const scene;
+    int found = 0;
+    for (double x = 0.2; x < 0.5; x += 1e-3) {
+        SoftShadow<double> const shadow = scene.past_edge(x, 5.0, {256, 4, {1, 0}});
+        EXPECT_GE(shadow.visibility, 0.5) << x;
+        found += shadow.blocked && shadow.visibility == 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(found, 0) << "the search finds what the few taps of the filter miss";
 }
 
 TEST(Pcss, DirectionsAreAtTheGoldenAngleAndStayUnit) {

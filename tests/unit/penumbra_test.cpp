@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/penumbra.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/light_box.hpp>
 
@@ -89,6 +90,25 @@ TEST(Penumbra, OfAMapHasNoKernelWithoutAMapAPlaceOrAGap) {
     EXPECT_EQ(kernel_texels(penumbra, Vec4<double>(0.5, 0.5, nan, 1.0), 100, 0.1), Vec2<double>(0.0));
     EXPECT_EQ(kernel_texels(penumbra, place, 100, nan), Vec2<double>(0.0));
     EXPECT_EQ(kernel_texels(penumbra, place, 100, std::numeric_limits<double>::max()), Vec2<double>(0.0)) << "no end";
+}
+
+TEST(Penumbra, OfALightOfNoRadiusHasNoRimAndOfAMapOfOneTexelAKernel) {
+    ShadowMap<double> map;
+    map.clip_from_world = clip_from_world(LightBox<double>{}, gl_zero_to_one_clip);
+    map.clip = gl_zero_to_one_clip;
+    map.visible = true;
+    for (double const radius : {0.0, -1.0}) {
+        MapPenumbra<double> const hard = penumbra_for(map, overhead, radius);
+        EXPECT_GT(hard.depth_of_gap, 0.0);
+        EXPECT_EQ(hard.rim_x, Vec4<double>(0.0));
+        EXPECT_EQ(hard.rim_y, Vec4<double>(0.0));
+    }
+    MapPenumbra<double> const soft = penumbra_for(map, overhead, 0.5);
+    Vec4<double> const receiver(0.5, 0.5, 0.5, 1.0);
+    EXPECT_GT(kernel_texels(soft, receiver, 1, 1.0).x, 0.0);
+    auto const run = test::watched([&] { return kernel_texels(soft, Vec4<double>(0.5, 0.5, 0.5, 0.0), 64, 1.0); });
+    EXPECT_EQ(run.result, Vec2<double>(0.0));
+    EXPECT_TRUE(run.calm_in_range());
 }
 
 TEST(Penumbra, OfALampBeyondAllNumbersHasNoMetres) {

@@ -44,6 +44,46 @@ TEST(Polytope, OfABoxHasItsPlanesToTheBitEvenWhereItIsFlat) {
     }
 }
 
+// Of what a view sees, in any size: unit normals, each plane through four corners, and all eight on its inner side.
+TEST(Polytope, OfAViewHasSixPlanesThroughFourCornersEachThatHoldAll) {
+    for (double const unit : {1e-3, 1.0, 1e3}) {
+        ViewVolume<double> view = perspective_view(
+            pose_looking(V3(30, -20, 70) * unit, V3(1, -0.5, 0.3), V3(0, 1, 0.2)), 1.0, 1.5, 2.0 * unit, 30.0 * unit);
+        view.left *= 0.3;
+        view.top *= 0.5;
+        ConvexBody<double> const body = convex_body(corners(view));
+        ASSERT_EQ(body.face_count, 6);
+        for (unsigned face = 0; face < 6; ++face) {
+            V4 const& plane = body.half_space[face];
+            EXPECT_NEAR(glm::length(V3(plane)), 1.0, 1e-14);
+            int touched = 0;
+            for (V3 const& corner : corners(view)) {
+                double const inside = glm::dot(plane, V4(corner, 1.0));
+                EXPECT_GE(inside, -1e-12 * 100 * unit);
+                touched += std::abs(inside) <= 1e-12 * 100 * unit;
+            }
+            EXPECT_EQ(touched, 4) << face;
+        }
+    }
+}
+
+TEST(Polytope, ElsewhereHasItsCornersThere) {
+    V3 const offset(3, -4, 5);
+    Aabb<double> bounds;
+    for_each_vertex(translated(convex_body(unit_box), offset), [&](V3 const& v) { bounds = merge(bounds, v); });
+    EXPECT_EQ(bounds.lo, unit_box.lo + offset);
+    EXPECT_EQ(bounds.hi, unit_box.hi + offset);
+}
+
+TEST(VisibleBody, OfABoxInTheMiddleOfTheViewGrowsByTheSlackOnEverySide) {
+    ViewVolume<double> const view = perspective_view(Pose<double>{V3(1, 2, 3)}, 1.5, 1.0, 0.1, 100.0);
+    Aabb<double> const box{V3(0, 1, -20), V3(2, 2.5, -18)};
+    Aabb<double> bounds;
+    for_each_vertex(visible_body(view, box, 0.25), [&](V3 const& v) { bounds = merge(bounds, v); });
+    EXPECT_EQ(bounds.lo, box.lo - view.pose.position - 0.25);
+    EXPECT_EQ(bounds.hi, box.hi - view.pose.position + 0.25);
+}
+
 TEST(Polytope, LosesACornerToAPlane) {
     // x + y + z <= 2.5 cuts (1, 1, 1) off: one triangle more, 12 + 3 edges, 8 - 1 + 3 vertices.
     ConvexBody<double> const body = clipped(convex_body(corners(unit_box)), V4(-1, -1, -1, 2.5));

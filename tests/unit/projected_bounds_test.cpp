@@ -140,3 +140,68 @@ TEST(ProjectedBounds, OfThousandsLeaveOutNoBoxThatReachesFartherThanThoseBefore)
                 << some << ' ' << w_min;
         }
 }
+
+// A thousand boxes, and behind them one that reaches farther on one side alone, by little, for a view from anywhere.
+TEST(ProjectedBounds, OfThousandsHoldTheOneThatReachesFartherOnOneSide) {
+    constexpr int count = 1100, odd_one = 1080;
+    for (V3 const& forward : {V3(0, 0, -1), V3(1, -0.4, 0.3), V3(-0.3, 0.9, -0.2), V3(-0.5, -0.5, 0.8)}) {
+        Pose<double> const pose = pose_looking(V3(40, -25, 60), forward, V3(0.1, 1, 0.2));
+        glm::dmat4 const matrix = clip_from_world(perspective_view(pose, 1.2, 1.3, 1.0, 100.0), ClipSpace{});
+        auto const box_at_view = [&](V3 const& at) {
+            V3 const middle = pose.position + pose.right * at.x + pose.up * at.y + pose.forward * at.z;
+            return Aabb<double>{middle - V3(0.01, 0.02, 0.03), middle + V3(0.01, 0.02, 0.03)};
+        };
+        for (V3 const& side : {V3(-1, 0, 0), V3(1, 0, 0), V3(0, -1, 0), V3(0, 1, 0), V3(0, 0, -1), V3(0, 0, 1)}) {
+            std::vector<Aabb<double>> boxes;
+            std::vector<double> columns[6];
+            for (int i = 0; i < count; ++i) {
+                double const turn = 0.7 * i, lift = std::sin(1.3 * i);
+                V3 at(std::cos(turn), std::sin(turn), 10.0 + lift);
+                if (i == odd_one) at = V3(0, 0, 10) + side * 1.3;
+                boxes.push_back(box_at_view(at));
+                for (int axis = 0; axis < 3; ++axis) {
+                    columns[axis].push_back(boxes.back().lo[axis]);
+                    columns[axis + 3].push_back(boxes.back().hi[axis]);
+                }
+            }
+            BoxArrays<double> const arrays{columns[0].data(), columns[1].data(), columns[2].data(),
+                                           columns[3].data(), columns[4].data(), columns[5].data()};
+            Aabb<double> const together = projected_bounds(matrix, arrays, count, 1.0);
+            EXPECT_TRUE(laws::are_the_merged_bounds(matrix, boxes.data(), count, 1.0, together));
+            Aabb<double> const others = projected_bounds(matrix, arrays, odd_one, 1.0);
+            EXPECT_NE(together.lo + together.hi, others.lo + others.hi) << "or nothing was tried";
+        }
+    }
+}
+
+TEST(ProjectedBounds, AreTheSameForAnyMultipleOfTheMatrix) {
+    glm::dmat4 const clip = clip_from_world(
+        perspective_view(pose_looking(V3(1, 2, 3), V3(0.3, -0.2, -1), V3(0, 1, 0)), 1.2, 1.3, 1.0, 100.0), ClipSpace{});
+    Aabb<double> const box{V3(-3, -2, -9), V3(4, 5, 6)};  // from behind the eye to before it
+    for (double const w_min : {1.0, 0.25}) {
+        Aabb<double> const once = projected_bounds(clip, corners(box), w_min);
+        for (double const scale : {0x1p80, 0x1p-20}) {
+            Aabb<double> const scaled = projected_bounds(clip * scale, corners(box), w_min * scale);
+            EXPECT_LT(glm::length(scaled.lo - once.lo), 1e-12 * glm::length(once.lo));
+            EXPECT_LT(glm::length(scaled.hi - once.hi), 1e-12 * glm::length(once.hi));
+        }
+    }
+}
+
+TEST(ProjectedBounds, OfABoxWithoutAnEndAlongOneAxisAreThatOfItsSidesOnTheOthers) {
+    float const most = std::numeric_limits<float>::max();
+    glm::mat4 perspective(1.0f);
+    perspective[2][3] = -1.0f;
+    perspective[3][3] = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        Aabb<float> box{glm::vec3(-1, -1, -10), glm::vec3(1, 1, -5)};
+        box.lo[axis] = -most;
+        if (axis < 2) box.hi[axis] = most;
+        Aabb<float> const bounds = projected_bounds(perspective, corners(box), 1.0f);
+        for (int other = 0; other < 2; ++other) {
+            if (other == axis) continue;
+            EXPECT_NEAR(bounds.lo[other], -0.2f, 1e-6f) << axis;
+            EXPECT_NEAR(bounds.hi[other], 0.2f, 1e-6f) << axis;
+        }
+    }
+}

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace shadowmath;
 
@@ -147,4 +149,39 @@ TEST(QuadGain, AtItsHorizonIsNoneAndRaisesNoFlag) {
     EXPECT_EQ(there.result.x, V2(0.0));
     EXPECT_EQ(there.result.y, V2(0.0));
     EXPECT_EQ(gain_at(quad, 1000.0, V2(0.5, 1.0)).x, V2(500.0, 0.0));
+}
+
+TEST(QuadMap, MayBeAsSmallAsItLikes) {
+    for (double const size : {1e-4, 1e-2, 1e3}) {
+        Quad<double> const quad = quad_between(box_sides(V2(-size), V2(2 * size)));
+        ASSERT_TRUE(quad.visible) << size;
+        EXPECT_NEAR(quad.w_least, 1.0, 1e-12);
+        EXPECT_NEAR(area(quad) / (9 * size * size), 1.0, 1e-12);
+    }
+}
+
+TEST(QuadMap, IsNoneWhereOneSideIsTurnedAround) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        QuadSides<double> sides = lopsided();
+        sides[k] = -sides[k];
+        EXPECT_FALSE(quad_between(sides).visible) << k;
+    }
+}
+
+// Texels at a corner have the angle at which its two sides meet: the sharpest of the four decides, wherever it is.
+TEST(QuadMap, IsRefusedByItsSharpestCornerWhicheverThatIs) {
+    for (V2 const& mirror : {V2(1, 1), V2(-1, 1), V2(1, -1), V2(-1, -1)}) {
+        QuadSides<double> sides{side({-3, 0}, {1, 0.1}), side({5, 1}, {-1, 0.3}), side({0, -2}, {0.1, 1}),
+                                side({1, 4}, {0.4, -1})};
+        for (V3& s : sides) s = V3(s.x * mirror.x, s.y * mirror.y, s.z);
+        if (mirror.x < 0) std::swap(sides[0], sides[1]);
+        if (mirror.y < 0) std::swap(sides[2], sides[3]);
+        double worst = 1.0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            V2 const a = glm::normalize(V2(sides[i & 1u])), b = glm::normalize(V2(sides[2 + (i >> 1)]));
+            worst = std::max(worst, 1.0 / std::abs(a.x * b.y - a.y * b.x));
+        }
+        EXPECT_TRUE(quad_between(sides, 4.0, worst * 1.0001).visible);
+        EXPECT_FALSE(quad_between(sides, 4.0, worst * 0.9999).visible);
+    }
 }

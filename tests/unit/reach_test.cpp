@@ -63,3 +63,12 @@ TYPED_TEST(Reach, AxesAreUnitToAThousandth) {
         EXPECT_TRUE(detail::has_unit_axes(basis));
     }
 }
+
+TYPED_TEST(Reach, TheLargerOfTwoIsTheOneThatIsANumber) {
+    using T = TypeParam;
+    T const nan = std::numeric_limits<T>::quiet_NaN();
+    EXPECT_EQ(detail::larger(T(2), T(1)), T(2));
+    EXPECT_EQ(detail::larger(T(1), T(2)), T(2));
+    EXPECT_EQ(detail::larger(nan, T(1)), T(1));
+    EXPECT_EQ(detail::larger(T(1), nan), T(1));
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/region.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/region.hpp>
 
@@ -63,6 +64,22 @@ TEST(Region, WithoutAreaOrNotFiniteIsTheIdentity) {
         EXPECT_EQ(region_matrix(bad), glm::dmat4(1.0));
 }
 
+TEST(Region, ThatIsNotFiniteOnOneSideAloneRaisesNoFlag) {
+    double const inf = std::numeric_limits<double>::infinity();
+    for (Region<double> const& bad : {Region<double>{V2(-inf, 0.0), V2(1.0)}, Region<double>{V2(0.0), V2(1.0, inf)}}) {
+        auto const run = test::watched([&] { return region_matrix(bad); });
+        EXPECT_EQ(run.result, glm::dmat4(1.0));
+        EXPECT_TRUE(run.calm_in_range());
+    }
+}
+
+TEST(Region, OfTwoRegionsIsWhatLiesInBoth) {
+    Region<double> const both = intersect(Region<double>{V2(-1, 0), V2(3, 2)}, Region<double>{V2(0, -1), V2(4, 1)});
+    EXPECT_EQ(both.lo, V2(0, 0));
+    EXPECT_EQ(both.hi, V2(3, 1));
+    EXPECT_TRUE(is_empty(intersect(Region<double>{V2(0), V2(1)}, Region<double>{V2(2), V2(3)})));
+}
+
 TEST(Region, IsWidenedAboutItsCentreAndOnlyWhereItIsThin) {
     Region<double> const thin = widened(Region<double>{V2(0.25, -1.0), V2(0.25, 1.0)}, 2.0 / 1024.0);
     EXPECT_DOUBLE_EQ(thin.hi.x - thin.lo.x, 2.0 / 1024.0);
@@ -101,7 +118,9 @@ TEST(Tile, WithoutAreaOrOutsideItsAtlasIsBadRegionAndTheIdentity) {
         EXPECT_TRUE(faults_of(bad).has(Fault::bad_region));
         EXPECT_EQ(tile_matrix<float>(bad), glm::mat4(1.0f));
     }
-    EXPECT_FALSE(faults_of(Tile{56, 56, 8, 64, 64}).any());
+    for (Tile const& good :
+         {Tile{56, 56, 8, 64, 64}, Tile{0, 0, 64, 64, 64}, Tile{0, 3, 8, 64, 64}, Tile{3, 0, 8, 64, 64}})
+        EXPECT_FALSE(faults_of(good).any());
     EXPECT_EQ(tile_matrix<float>(Tile{0, 0, 64, 64, 64}), glm::mat4(1.0f));
 }
 

@@ -134,6 +134,20 @@ TYPED_TEST(SampleDepthsOf, ARangeThatIsNoneIsAFault) {
     }
 }
 
+TYPED_TEST(SampleDepthsOf, AnEndThatIsNoNumberIsNamedAlone) {
+    using T = TypeParam;
+    T const nan = std::numeric_limits<T>::quiet_NaN();
+    EXPECT_EQ(no_depths(nan, T(10)).faults, Faults(Fault::not_finite));
+    EXPECT_EQ(no_depths(T(1), nan).faults, Faults(Fault::not_finite));
+}
+
+TYPED_TEST(SampleDepthsOf, FaultsOfAPartAreThoseOfTheWhole) {
+    using T = TypeParam;
+    SampleDepths<T> whole = no_depths(T(1), T(10));
+    add(whole, no_depths(T(10), T(1)));
+    EXPECT_EQ(whole.faults, Faults(Fault::empty_range));
+}
+
 TYPED_TEST(SampleDepthsOf, OptionsOutsideTheirRangeAreClampedAndSaid) {
     using T = TypeParam;
     auto const depths = laws::depths_of<T>({T(1), T(2), T(90)}, T(0), T(100));

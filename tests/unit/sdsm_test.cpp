@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace shadowmath;
 
 template <class T>
@@ -175,6 +178,63 @@ TYPED_TEST(Sdsm, SamplesBeyondTheFarthestDistanceSayThatPrecisionIsLost) {
     auto const cascades = fit_samples(rays, bounds, brick<T>(), SampleFitOptions<T>{});
     EXPECT_TRUE(cascades.faults.has(Fault::precision_lost));
     for (auto const& cascade : cascades) EXPECT_FALSE(cascade.map.visible);
+}
+
+// 12 m in 15 texels and one for the place of the grid, up to the next of eight sizes an octave.
+TYPED_TEST(Sdsm, AStillMapWithoutAMarginHasTheLeastTexelThatHoldsItsSamples) {
+    using T = TypeParam;
+    Light<T> const light = directional(Vec3<T>(0, 0, -1));
+    auto const rays = sample_rays(looking_ahead<T>(), light, 4, 4);
+    SampleFitOptions<T> options;
+    options.map_size = 16;
+    options.margin_texels = T(0);
+    options.still = true;
+    EXPECT_EQ(fit_samples(rays, wall_at(rays, T(8)), brick<T>(), options).at[0].texel_metres, T(0.8125));
+}
+
+TYPED_TEST(Sdsm, ATexelIsAsLongAsItsLongerSide) {
+    using T = TypeParam;
+    for (T const width : {T(0.5), T(2)}) {
+        ViewVolume<T> view = looking_ahead<T>();
+        view.left *= width;
+        view.right *= width;
+        auto const rays = sample_rays(view, directional(Vec3<T>(0, 0, -1)), 4, 4);
+        SampleFitOptions<T> options;
+        options.map_size = 100;
+        options.margin_texels = T(10);
+        auto const cascades = fit_samples(rays, wall_at(rays, T(8)), brick<T>(), options);
+        EXPECT_NEAR(double(cascades.at[0].texel_metres), 0.15 * std::max(1.0, double(width)), 1e-5);
+    }
+}
+
+// What a ray meets first, in long double, at each corner of the sides.
+TYPED_TEST(Sdsm, LightEntersABoxNoSoonerThanItIsSaidTo) {
+    using T = TypeParam;
+    if (sizeof(T) == sizeof(long double)) return;
+    Aabb<T> const box{Vec3<T>(T(-3.1), T(0.7), T(-5.3)), Vec3<T>(T(4.7), T(9.1), T(2.9))};
+    int tight = 0;
+    for (int i = 0; i < 2000; ++i) {
+        T const turn = T(i) * T(0.37), rise = T(0.2) + T(i % 17) * T(0.07);
+        LightBasis<T> const basis = light_basis(directional(Vec3<T>(std::cos(turn), -rise, std::sin(turn))).direction);
+        Vec2<T> const lo(T(i % 5) - T(2.3), T(i % 7) - T(3.1)), hi = lo + T(1e-3) * T(i % 11);
+        long double first = 1e9L;
+        for (T const x : {lo.x, hi.x})
+            for (T const y : {lo.y, hi.y}) {
+                long double enters = -1e9L;
+                for (int k = 0; k < 3; ++k) {
+                    long double const along = basis.depth[k];
+                    long double const across =
+                        static_cast<long double>(basis.x[k]) * x + static_cast<long double>(basis.y[k]) * y;
+                    if (std::abs(along) > 1e-4L)
+                        enters = std::max(enters, ((along > 0 ? box.lo[k] : box.hi[k]) - across) / along);
+                }
+                first = std::min(first, enters);
+            }
+        long double const said = light_entry(basis, lo, hi, box);
+        EXPECT_LE(said, first) << i;
+        tight += first - said < 1e-2L;
+    }
+    EXPECT_GT(tight, 1000) << "and not much later";
 }
 
 TEST(EighthOfOctaveUp, RoundsUpToFourBits) {

@@ -134,3 +134,25 @@ TEST(Sweep, OfABodyOfAsManyFacesAsThereCanBeLeavesNothingOut) {
     }
     EXPECT_EQ(most, max_body_faces) << "some outlines and unlit faces are more than there is room for";
 }
+
+TEST(Sweep, OfASpotIsNoWiderForTheSizeOfTheSun) {
+    ConvexBody<double> const body = convex_body(Aabb<double>{V3(-1, 0, -1), V3(1, 1, 1)});
+    V4 const source = homogeneous(spot(V3(3, 9, 2), V3(0, -1, 0), 0.5, 20.0));
+    HalfSpaces<double> const plain = swept_to_light(body, source);
+    HalfSpaces<double> const wide = swept_to_light(body, source, SweepPadding<double>{0.0, 0.5});
+    ASSERT_EQ(wide.count, plain.count);
+    for (int i = 0; i < plain.count; ++i) EXPECT_EQ(wide.at[std::size_t(i)], plain.at[std::size_t(i)]);
+}
+
+TEST(Sweep, IsPaddedInMetresHoweverLongTheNormalOfACutIs) {
+    ConvexBody<double> const cube = convex_body(Aabb<double>{V3(-1), V3(1)});
+    V4 const sun(0, -1, 0, 0), cut = V4(glm::normalize(V3(0.2, 1, 0.1)), 0.3);
+    SweepPadding<double> const metre{1.0, 0.0};
+    HalfSpaces<double> const once = swept_to_light(clipped(cube, cut), sun, metre);
+    for (double const length : {0.25, 8.0}) {
+        HalfSpaces<double> const longer = swept_to_light(clipped(cube, cut * length), sun, metre);
+        ASSERT_EQ(longer.count, once.count);
+        for (int i = 0; i < once.count; ++i)
+            EXPECT_NEAR(glm::length(longer.at[std::size_t(i)] - once.at[std::size_t(i)]), 0.0, 1e-12);
+    }
+}

@@ -230,6 +230,10 @@ TEST(GridWindow, NamesEachThingThatIsWrong) {
     EXPECT_EQ(faults(V3(1), nan, 64, 1), Faults(Fault::not_finite));
     EXPECT_EQ(faults(V3(1), 0.25, 0, 1), Faults(Fault::map_too_small));
     EXPECT_EQ(faults(V3(1), 0.25, 64, 0), Faults(Fault::map_too_small));
+    LightBasis<double> flat = axes;
+    flat.depth = V3(0);
+    EXPECT_EQ(grid_window(flat, V3(1), 0.25, 64).faults, Faults(Fault::bad_pose));
+    EXPECT_FALSE(grid_window(flat, V3(1), 0.25, 64).visible);
 }
 
 TEST(HeldSize, IsTheNextEighthOfAnOctaveBelowOneAndAtAnEighthToo) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/vdsm.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/aliasing.hpp>
 #include <shadowmath/footprint.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -81,6 +83,19 @@ TEST(PlaneProjection, OfALightInThePlaneIsTheIdentity) {
     EXPECT_EQ(plane_projection(ground, V4(1, 0, 0, 0)), glm::dmat4(1.0));
     EXPECT_EQ(plane_projection(ground, V4(3, 0, 5, 1)), glm::dmat4(1.0));
     EXPECT_EQ(plane_projection(ShadowPlane<double>{V3(nan_), 0.0}, V4(0, 1, 0, 0)), glm::dmat4(1.0));
+}
+
+TEST(PlaneProjection, OfWhatIsNotFiniteOrHasNoNormalIsTheIdentityAndDividesByNothing) {
+    ShadowPlane<double> const unknown{V3(0, nan_, 0), 0.0}, beyond{V3(0, 1, 0), inf}, none{V3(0.0), 0.0};
+    V4 const down(0, -1, 0, 0);
+    EXPECT_EQ(plane_projection(unknown, down), glm::dmat4(1.0));
+    EXPECT_EQ(plane_projection(beyond, down), glm::dmat4(1.0));
+    EXPECT_EQ(plane_projection(ground, V4(0, nan_, 0, 0)), glm::dmat4(1.0));
+    for (auto const& run : {test::watched([&] { return plane_projection(none, down); }),
+                            test::watched([&] { return plane_projection(ground, V4(0.0)); })}) {
+        EXPECT_TRUE(run.calm_in_range());
+        EXPECT_EQ(run.result, glm::dmat4(1.0));
+    }
 }
 
 TEST(ShadowPlane, AtMeanHeightHalvesWhatReceives) {
@@ -231,6 +246,100 @@ TEST(Vdsm, RefusesAPlaneThroughTheLightOrTheEyeOrWithoutNormal) {
     EXPECT_TRUE(faults(ShadowPlane<double>{V3(0.0), 1.0}, morning).has(Fault::invalid_plane));
     EXPECT_TRUE(faults(ShadowPlane<double>{V3(nan_), 1.0}, morning).has(Fault::not_finite));
     EXPECT_TRUE(faults(ShadowPlane<double>{V3(0, 1, 0), inf}, morning).has(Fault::not_finite));
+}
+
+TEST(Vdsm, DependsNeitherOnSignNorOnLengthOfThePlane) {
+    ShadowPlane<double> const hill{V3(0.1, 0.8, 0.2), -0.5};
+    auto const of = [](ShadowPlane<double> const& plane) {
+        return view_dependent_map(walker(), morning, plane, town, town, {}, gl_clip).clip_from_world;
+    };
+    for (double const scale : {-1.0, 2.0, 0.25})
+        EXPECT_EQ(of(ShadowPlane<double>{hill.normal * scale, hill.offset * scale}), of(hill)) << scale;
+}
+
+TEST(Vdsm, RefusesAPlaneThatPassesTheEyeCloserThanATenThousandthOfTheView) {
+    for (double const height : {0.019, 0.021, -0.019, -0.021}) {
+        ShadowPlane<double> const plane{V3(0, 1, 0), height - walker().pose.position.y};
+        EXPECT_EQ(
+            view_dependent_map(walker(), morning, plane, town, town, {}, gl_clip).faults.has(Fault::invalid_plane),
+            std::abs(height) < 0.02)
+            << height;
+    }
+}
+
+TEST(Vdsm, ServesReceiversFromTheNearDistanceOrFromTheWAskedFor) {
+    VdsmOptions<double> options;
+    EXPECT_EQ(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).w_min, walker().z_near);
+    options.w_min = 0.5;
+    EXPECT_EQ(view_dependent_map(walker(), morning, ground, town, town, options, gl_clip).w_min, 0.5);
+}
+
+TEST(Vdsm, MayReachNoFartherThanTheScreen) {
+    VdsmOptions<double> options;
+    options.reach = 1.0;
+    ShadowMap<double> const map = view_dependent_map(walker(), morning, ground, town, town, options, gl_clip);
+    EXPECT_TRUE(map.visible);
+    EXPECT_FALSE(map.faults.any());
+}
+
+// Receivers that rise beside the road slide far out of the picture, on the side that the light sends them to.
+TEST(Vdsm, GoesAsFarBeyondTheScreenAsItsReachAndNoFarther) {
+    VdsmOptions<double> options;
+    options.margin_texels = 0.0;
+    double most[4] = {};
+    for (V3 const& travel : {V3(1, -0.4, 0), V3(-1, -0.4, 0), V3(0, -0.4, 1), V3(0, -0.1, -1)}) {
+        ViewVolume<double> view = walker();
+        // Toward the horizon nothing goes beyond a level picture.
+        double const down = travel.z < 0.0 ? 1.5 : 0.0;
+        view.pose = pose_looking(V3(0, 9, 0), V3(0, -down, -1), V3(0, 1, 0));
+        ShadowMap<double> const map =
+            view_dependent_map(view, directional(travel), ground, town, town, options, gl_clip);
+        ASSERT_TRUE(map.visible);
+        glm::dmat4 const screen = clip_from_world(view, gl_clip);
+        V3 const a(-2, 0, -9), b(3, 0, -20);
+        for (int axis = 0; axis < 2; ++axis) {
+            double const of_screen = ndc(screen, b)[axis] - ndc(screen, a)[axis];
+            double const of_map = ndc(map.clip_from_world, b)[axis] - ndc(map.clip_from_world, a)[axis];
+            for (double const side : {-1.0, 1.0}) {
+                double const at =
+                    ndc(screen, a)[axis] + (side - ndc(map.clip_from_world, a)[axis]) * of_screen / of_map;
+                EXPECT_LE(side * at, options.reach + 1e-9);
+                double& farthest = most[2 * axis + (side > 0 ? 1 : 0)];
+                farthest = std::max(farthest, side * at);
+            }
+        }
+    }
+    for (double const farthest : most) EXPECT_NEAR(farthest, options.reach, 1e-9) << "or nothing was tried";
+}
+
+// A mast over ground that is nearer than w_min, though in the picture: nothing that the map serves is below it.
+TEST(Vdsm, SpendsNoDepthOnCastersNearerThanItsWMin) {
+    ViewVolume<double> view = walker();
+    view.pose = pose_looking(V3(0, 1.7, 0), V3(0, -1, -1), V3(0, 1, 0));
+    VdsmOptions<double> options;
+    options.crop = false;
+    options.w_min = 2.5;
+    auto const is_visible = [&](double ahead) {
+        Aabb<double> const mast{V3(-0.05, 0.1, -ahead - 0.05), V3(0.05, 50, -ahead + 0.05)};
+        return view_dependent_map(view, directional(V3(0, -1, 0)), ground, mast, flat_world, options, gl_clip).visible;
+    };
+    EXPECT_FALSE(is_visible(1.1));
+    EXPECT_TRUE(is_visible(3.0));
+}
+
+TEST(Vdsm, GivesAReceiverThatIsAPointATexelOfTheScreen) {
+    V3 const here(1, 0, -9), aside(1.001, 0, -9.002);
+    Aabb<double> const point{here, here};
+    VdsmOptions<double> options;
+    options.margin_texels = 0.0;
+    ViewVolume<double> const view = walker();
+    ShadowMap<double> const map = view_dependent_map(view, morning, ground, town, point, options, gl_clip);
+    ASSERT_TRUE(map.visible);
+    glm::dmat4 const screen = clip_from_world(view, gl_clip);
+    V3 const of_map = ndc(map.clip_from_world, aside) - ndc(map.clip_from_world, here);
+    V3 const of_screen = ndc(screen, aside) - ndc(screen, here);
+    EXPECT_NEAR(of_map.x / of_screen.x, options.map_size, 1e-3);
+    EXPECT_NEAR(of_map.y / of_screen.y, options.map_size, 1e-3);
 }
 
 TEST(Vdsm, HasNothingToShowWithoutCastersOrReceiversAndSaysNoFault) {

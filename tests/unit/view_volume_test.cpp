@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+
 using namespace shadowmath;
 using namespace shadowmath::test;
 
@@ -181,6 +184,7 @@ TEST(Pose, WithoutAForwardOrARightAxisComesBackAsItIs) {
         Pose<double> pose;
         pose.*axis = glm::dvec3(0.0);
         EXPECT_EQ(orthonormalized(pose).*axis, glm::dvec3(0.0));
+        EXPECT_EQ(orthonormalized(pose).up, pose.up);
     }
 }
 
@@ -192,4 +196,109 @@ TEST(ViewFromProjection, OfAMatrixWithoutAScaleHasEqualSides) {
         for (double const side : {view.left, view.right, view.bottom, view.top}) EXPECT_EQ(side, 0.0);
         EXPECT_TRUE(faults_of(view).has(Fault::bad_frustum));
     }
+}
+
+TEST(ViewVolume, WithASideThatEndsNowhereOrNoExtentIsABadFrustum) {
+    double const inf = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(faults_of(off_centre()).any());
+    for (double ViewVolume<double>::*side : {&ViewVolume<double>::left, &ViewVolume<double>::right,
+                                             &ViewVolume<double>::bottom, &ViewVolume<double>::top}) {
+        ViewVolume<double> view = off_centre();
+        view.*side *= inf;
+        EXPECT_EQ(faults_of(view), Faults(Fault::bad_frustum));
+    }
+    ViewVolume<double> narrow = off_centre(), low = off_centre();
+    narrow.left = narrow.right;
+    low.bottom = low.top;
+    EXPECT_EQ(faults_of(narrow), Faults(Fault::bad_frustum));
+    EXPECT_EQ(faults_of(low), Faults(Fault::bad_frustum));
+}
+
+TEST(ViewVolume, OfAnAngleOutsideAHalfTurnIsABadFrustum) {
+    constexpr double pi = 3.14159265358979323846;
+    for (double const angle : {-1.0, 0.0, pi, 4.0, 7.0})
+        EXPECT_TRUE(faults_of(perspective_view(Pose<double>{}, angle, 1.5, 0.1, 10.0)).has(Fault::bad_frustum))
+            << angle;
+}
+
+TEST(ViewVolume, WhoseDepthsDoNotIncreaseFromTheEyeOnIsAnEmptyRange) {
+    ViewVolume<double> view = off_centre();
+    for (auto const& [z_near, z_far] :
+         {std::pair{-1.0, 200.0}, std::pair{5.0, 5.0}, std::pair{9.0, 5.0}, std::pair{-2.0, -3.0}}) {
+        view.z_near = z_near, view.z_far = z_far;
+        EXPECT_EQ(faults_of(view), Faults(Fault::empty_range)) << z_near << ' ' << z_far;
+    }
+    view.z_near = 0.0, view.z_far = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(faults_of(view).any());
+}
+
+TEST(ViewVolume, IsReadFromAMatrixTimesAnyPositiveNumber) {
+    ViewVolume<double> const view = off_centre();
+    for (double const scale : {0.25, 3.0})
+        EXPECT_TRUE(laws::has_the_sides_of(
+            read_back(view, projection_of(view, Hand::left, Depth::minus_one_to_one, false) * scale), view));
+}
+
+namespace {
+
+// One axis of the default pose, moved.
+Pose<double> bent(Vec3<double> const& right, Vec3<double> const& up, Vec3<double> const& forward) {
+    Pose<double> pose;
+    pose.right += right, pose.up += up, pose.forward += forward;
+    return pose;
+}
+
+}  // namespace
+
+TEST(Pose, IsBadByTheLengthOfOneAxisOrTheAngleOfTwo) {
+    Vec3<double> const none(0), r = Pose<double>{}.right * 0.01, u = Pose<double>{}.up * 0.01;
+    Vec3<double> const f = Pose<double>{}.forward * 0.01;
+    ViewVolume<double> view = off_centre();
+    for (Pose<double> const& pose : {bent(r, none, none), bent(none, u, none), bent(none, none, f), bent(u, none, none),
+                                     bent(none, f, none), bent(none, none, r)}) {
+        view.pose = pose;
+        EXPECT_EQ(faults_of(view), Faults(Fault::bad_pose));
+    }
+}
+
+TEST(Pose, IsMendedWhicheverOfItsAxesAreOffAndAsItIsWhereNoneIs) {
+    Vec3<double> const none(0), r = Pose<double>{}.right * 1e-9, u = Pose<double>{}.up * 1e-9;
+    Vec3<double> const f = Pose<double>{}.forward * 1e-9;
+    for (Pose<double> const& pose :
+         {bent(r, none, none), bent(none, u, none), bent(none, none, f), bent(r, u, none), bent(none, u, f),
+          bent(r, none, f), bent(u, none, none), bent(none, f, none), bent(none, none, r), bent(none, r + f, none),
+          bent(u + f, none, none), bent(none, none, r + u)}) {
+        Pose<double> const mended = orthonormalized(pose);
+        EXPECT_NEAR(glm::dot(mended.right, mended.right), 1.0, 1e-15);
+        EXPECT_NEAR(glm::dot(mended.up, mended.up), 1.0, 1e-15);
+        EXPECT_NEAR(glm::dot(mended.forward, mended.forward), 1.0, 1e-15);
+        EXPECT_NEAR(glm::dot(mended.right, mended.up), 0.0, 1e-15);
+        EXPECT_NEAR(glm::dot(mended.up, mended.forward), 0.0, 1e-15);
+        EXPECT_NEAR(glm::dot(mended.forward, mended.right), 0.0, 1e-15);
+    }
+    double const bit = 0.5e-6;  // 2^-52 of 1e-9
+    Pose<double> const good = bent(r * bit, u * bit, f * bit), as_it_was = orthonormalized(good);
+    ASSERT_NE(good.right, Pose<double>{}.right);
+    EXPECT_EQ(as_it_was.right, good.right);
+    EXPECT_EQ(as_it_was.up, good.up);
+    EXPECT_EQ(as_it_was.forward, good.forward);
+}
+
+TEST(Pose, LookingAlongItsUpTakesTheWorldAxisLeastAlongIt) {
+    for (auto const& [forward, least] :
+         {std::pair{Vec3<double>(0.1, 0.9, 0.3), 0}, std::pair{Vec3<double>(0.5, 0.8, 0.1), 2},
+          std::pair{Vec3<double>(0.8, 0.1, 0.5), 1}, std::pair{Vec3<double>(0.5, 0.1, 0.8), 1}}) {
+        Vec3<double> axis(0);
+        axis[least] = 1.0;
+        Pose<double> const pose = pose_looking(Vec3<double>(0), forward, forward);
+        EXPECT_NEAR(glm::dot(pose.right, glm::normalize(glm::cross(forward, axis))), 1.0, 1e-15) << least;
+    }
+}
+
+TEST(ViewVolume, OfAnEndlessOrthographicViewLosesNothingHoweverFar) {
+    ViewVolume<double> const view =
+        orthographic_view(Pose<double>{}, -1.0, 1.0, -1.0, 1.0, 0.1, std::numeric_limits<double>::infinity());
+    Vec4<double> const at = clip_from_world(view, gl_zero_to_one_clip) * Vec4<double>(0, 0, -1e9, 1);
+    EXPECT_GE(at.z, 0.0);
+    EXPECT_LE(at.z, at.w);
 }

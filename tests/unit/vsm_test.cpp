@@ -71,3 +71,32 @@ TEST(Evsm, TakesTheLeastDeviationForOneOfDepth) {
     EXPECT_NEAR(evsm_visibility(evsm_moments(0.5, exponents), depth, exponents, 0.01),
                 spread * spread / (spread * spread + before * before), 1e-12);
 }
+
+TEST(Evsm, MomentsAreAWarpAndItsSquare) {
+    EvsmExponents<double> const exponents{2.0, 0.5};
+    double const z = 2 * 0.7 - 1, growing = std::exp(2.0 * z), falling = -std::exp(-0.5 * z);
+    Vec4<double> const moments = evsm_moments(0.7, exponents);
+    EXPECT_NEAR(moments.x, growing, 1e-14);
+    EXPECT_NEAR(moments.y, growing * growing, 1e-14);
+    EXPECT_NEAR(moments.z, falling, 1e-14);
+    EXPECT_NEAR(moments.w, falling * falling, 1e-14);
+}
+
+TEST(Evsm, OfAnExponentThatIsNoneWarpsNothing) {
+    for (double const bad : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_EQ(evsm_warp(0.7, EvsmExponents<double>{bad, bad}), Vec2<double>(1.0, -1.0)) << bad;
+}
+
+TEST(Evsm, TakesTheLeastDeviationForOneOfDepthInTheFallingWarpToo) {
+    EvsmExponents<double> const exponents{0.0, 4.0};
+    double const depth = 0.51, warp = std::exp(-4 * (2 * depth - 1)), before = 1 - warp;
+    double const spread = 0.01 * 2 * 4 * warp;  // d/dz of exp(-4 (2 z - 1))
+    EXPECT_NEAR(evsm_visibility(evsm_moments(0.5, exponents), depth, exponents, 0.01),
+                spread * spread / (spread * spread + before * before), 1e-12);
+}
+
+TEST(Vsm, OfADepthWithoutAnEndIsLit) {
+    double const inf = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(vsm_visibility(vsm_moments(0.2), inf, 1e-4), 1.0);
+    EXPECT_EQ(vsm_visibility(Vec2<double>(inf, 0.1), 0.9, 1e-4), 1.0);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/warp.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/watched.hpp"
 
 #include <shadowmath/aliasing.hpp>
 
@@ -60,7 +61,7 @@ TEST(PrintedWarp, CutsCastersNearTheViewerUnlessHIsTwo) {
 }
 
 TEST(PrintedWarp, IsTheTransposeOfTheRowsInTheListing) {
-    double const w = 0.5, h = 1.5, zn = 0.2, zf = 1.0;
+    double const w = 0.5, h = 0.75, zn = 0.2, zf = 1.0;
     glm::dmat4 const warp = printed_simple_warp(w, h, zn, zf);
     // A row of the listing is a column here.
     double const listing[4][4] = {
@@ -77,6 +78,14 @@ TEST(CorrectedWarp, FillsTheMapFromNearToFarAndKeepsDepthInside) {
         EXPECT_LE(ndc(warp, V3(0, y, 1.0)).z, 1.0 + 1e-15);
         EXPECT_LT(ndc(warp, V3(0, y, 0.3)).z, ndc(warp, V3(0, y, 0.4)).z);
     }
+}
+
+TEST(CorrectedWarp, DividesByTheWayAlongTheViewAndKeepsTheAxesApart) {
+    double const w = 0.5, zn = 0.2, zf = 1.0, y = 0.6;
+    V3 const at = ndc(corrected_simple_warp(w, zn, zf), V3(0.3, y, 0.7));
+    EXPECT_NEAR(at.x, 2 * zn * 0.3 / w / y, 1e-14);
+    EXPECT_NEAR(at.y, ((zf + zn) - 2 * zf * zn / y) / (zf - zn), 1e-14);
+    EXPECT_NEAR(at.z, zn * 0.7 / y, 1e-14);
 }
 
 TEST(CorrectedWarp, FillsTheWidthWithTheSidesOfTheView) {
@@ -99,6 +108,42 @@ TEST(SimpleWarps, AreTheIdentityForParametersOutOfRange) {
     // Numbers that are good alone and too much together.
     EXPECT_EQ(printed_simple_warp(1e-300, 1.0, 1e20, 1e30), glm::dmat4(1.0));
     EXPECT_EQ(corrected_simple_warp(1e-300, 1e20, 1e30), glm::dmat4(1.0));
+}
+
+TEST(SimpleWarps, DivideByNoParameterThatIsZero) {
+    for (auto const& run : {test::watched([] { return printed_simple_warp(0.0, 1.0, 0.1, 1.0); }),
+                            test::watched([] { return printed_simple_warp(1.0, 0.0, 0.1, 1.0); }),
+                            test::watched([] { return printed_simple_warp(1.0, 1.0, 0.5, 0.5); }),
+                            test::watched([] { return corrected_simple_warp(0.0, 0.1, 1.0); }),
+                            test::watched([] { return corrected_simple_warp(1.0, 0.5, 0.5); })}) {
+        EXPECT_TRUE(run.calm_in_range());
+        EXPECT_EQ(run.result, glm::dmat4(1.0));
+    }
+}
+
+// Symmetrically in the sine: half of the warp half way.
+TEST(WarpAxes, FadeTheWarpOutFromThirtyDegreesToSix) {
+    auto const fade = [](double sine) {
+        double const angle = std::asin(sine);
+        return warp_axes(pose_looking(V3(0), V3(0, -std::cos(angle), -sine), V3(0, 0, -1)), overhead.direction).fade;
+    };
+    EXPECT_EQ(fade(1.0), 1.0);
+    EXPECT_EQ(fade(0.5001), 1.0);
+    EXPECT_EQ(fade(0.0999), 0.0);
+    EXPECT_NEAR(fade(0.3), 0.5, 1e-12);
+    for (double off = 0.01; off < 0.2; off += 0.01) {
+        EXPECT_NEAR(fade(0.3 - off) + fade(0.3 + off), 1.0, 1e-12);
+        EXPECT_GT(fade(0.3 + off), fade(0.29 + off));
+    }
+}
+
+TEST(WarpAxes, RunAlongTheViewAsTheLightSeesItHoweverItIsRolled) {
+    V3 const forward = glm::normalize(V3(0.3, -0.8, -0.6)), travel = overhead.direction;
+    for (V3 const& up : {V3(0, 1, 0), V3(1, 0.2, 0.3), V3(-1, 0, 0.5)}) {
+        WarpAxes<double> const axes = warp_axes(pose_looking(V3(0), forward, up), travel);
+        ASSERT_EQ(axes.fade, 1.0);
+        EXPECT_NEAR(glm::dot(axes.basis.y, glm::normalize(V3(forward.x, 0, forward.z))), 1.0, 1e-14);
+    }
 }
 
 TEST(WarpAxes, OfAViewThatIsNoneAreThoseOfTheLightAlone) {
@@ -182,6 +227,7 @@ TEST(ExtendedCentre, IsGusevsGrowthMeasuredFromTheNearEnd) {
     double const y_near = 3.0, g = 0.05 / 0.5, inverse = extended_inverse_centre(0.05, 0.5, y_near);
     for (double const y : {3.0, 10.0, 200.0})
         EXPECT_NEAR((1 + g * y) / (1 + g * y_near), 1 + (y - y_near) * inverse, 1e-12);
+    EXPECT_DOUBLE_EQ(extended_inverse_centre(0.05, 0.5, 0.0), g) << "from the eye on";
     // Behind the eye, where w would pass through 0 at y = -10.
     double const kept = extended_inverse_centre(0.05, 0.5, -50.0);
     EXPECT_NEAR(1 / kept, 50.0 * 0.15 / 0.85, 1e-9);
@@ -271,6 +317,74 @@ TEST(SimplePerspectiveMap, IsTheSameByAnyRuleThatComesToTheSameCentre) {
     }
 }
 
+TEST(SimplePerspectiveMap, ByTheTrapezoidGivesFourFifthsOfTheMapToTheGroundUpToTheFocus) {
+    ViewVolume<double> view = level_view();
+    view.pose = pose_looking(V3(0, 12, 0), V3(0, -0.6, -0.8), V3(0, 1, 0));
+    WarpOptions<double> options;
+    options.margin_texels = 0.0;
+    options.rule = WarpRule::trapezoid;
+    options.focus_metres = 40.0;
+    ShadowMap<double> const map = simple_perspective_map(view, overhead, flat_world, flat_world, options, gl_clip);
+    ASSERT_TRUE(map.visible);
+    // Ground at 40 m of eye depth: 0.6 * 12 + 0.8 * ahead = 40.
+    EXPECT_NEAR(ndc(map.clip_from_world, V3(0, 0, -(40.0 - 7.2) / 0.8)).y, -1.0 + 2.0 * 0.8, 1e-9);
+}
+
+TEST(SimplePerspectiveMap, IsByNoRuleStrongerThanStammingers) {
+    Light<double> const light = directional(V3(0, -0.6, 0.8));
+    auto const growth = [&](WarpOptions<double> const& options) {
+        ShadowMap<double> const map = simple_perspective_map(level_view(), light, town, town, options, gl_clip);
+        EXPECT_TRUE(map.visible);
+        glm::dmat4 const& m = map.clip_from_world;
+        return (m * V4(0, 0, -100, 1)).w / (m * V4(0, 0, -5, 1)).w;
+    };
+    WarpOptions<double> strongest, trapezoid, extended;
+    strongest.strength = trapezoid.strength = extended.strength = 2.0;
+    trapezoid.rule = WarpRule::trapezoid;
+    trapezoid.focus_metres = 0.0;
+    extended.rule = WarpRule::extended;
+    extended.coefficient = 1e6;
+    EXPECT_NEAR(growth(trapezoid) / growth(strongest), 1.0, 1e-9);
+    EXPECT_NEAR(growth(extended) / growth(strongest), 1.0, 1e-9);
+}
+
+TEST(SimplePerspectiveMap, ByTheTrapezoidWarpsABodyOfHalfAMetreAndDividesByNoLength) {
+    WarpOptions<double> options;
+    options.rule = WarpRule::trapezoid;
+    options.focus_metres = 4.1;
+    Aabb<double> const patch{V3(-1, 0, -4.5), V3(1, 0, -4.0)}, point{V3(0, 0, -4.0), V3(0, 0, -4.0)};
+    ShadowMap<double> const warped = simple_perspective_map(level_view(), overhead, patch, patch, options, gl_clip);
+    EXPECT_GT(glm::length(V3(row(warped.clip_from_world, 3))), 0.0);
+    auto const run =
+        test::watched([&] { return simple_perspective_map(level_view(), overhead, point, point, options, gl_clip); });
+    EXPECT_TRUE(run.calm_in_range());
+    EXPECT_TRUE(run.result.visible);
+}
+
+// A side without an extent is as wide as a texel would be if the map were a square.
+TEST(SimplePerspectiveMap, GivesALineATexelOfItsLengthAcross) {
+    WarpOptions<double> options;
+    options.strength = 0.0;
+    options.margin_texels = 0.0;
+    for (V3 const& along : {V3(4, 0, 0), V3(0, 0, -4)}) {
+        Aabb<double> const line{glm::min(V3(1, 0, -12), V3(1, 0, -12) + along),
+                                glm::max(V3(1, 0, -12), V3(1, 0, -12) + along)};
+        ShadowMap<double> const map = simple_perspective_map(level_view(), overhead, line, line, options, gl_clip);
+        ASSERT_TRUE(map.visible);
+        double const x = glm::length(V3(row(map.clip_from_world, 0))), y = glm::length(V3(row(map.clip_from_world, 1)));
+        EXPECT_NEAR(along.x != 0.0 ? y / x : x / y, 1024.0, 1e-3);
+    }
+}
+
+TEST(SimplePerspectiveMap, SaysThatANearDistanceOfZeroIsNone) {
+    ViewVolume<double> view = level_view();
+    EXPECT_FALSE(simple_perspective_map(view, overhead, town, town, {}, gl_clip).faults.has(Fault::near_clamped));
+    view.z_near = 0.0;
+    ShadowMap<double> const map = simple_perspective_map(view, overhead, town, town, {}, gl_clip);
+    EXPECT_TRUE(map.visible);
+    EXPECT_TRUE(map.faults.has(Fault::near_clamped));
+}
+
 // The light sweeps over the sky, a twentieth of a degree a step, through both alignments with the view.
 TEST(SimplePerspectiveMap, MovesLittleWhenTheLightTurnsLittleAtAnyStrength) {
     ViewVolume<double> view = level_view();
@@ -319,6 +433,7 @@ TEST(SimplePerspectiveMap, AtStrengthZeroIsTheUniformMap) {
     ViewVolume<double> const view = level_view();
     ShadowMap<double> const map = simple_perspective_map(view, overhead, flat_world, flat_world, options, gl_clip);
     ASSERT_TRUE(map.visible);
+    EXPECT_TRUE(map.faults.has(Fault::warp_faded));
     EXPECT_EQ(row(map.clip_from_world, 3), V4(0, 0, 0, 1));
     double const n = first_ground(view);
     EXPECT_NEAR(error_along(map, n), view.z_far / n - 1.0, 1e-9 * view.z_far);
