@@ -18,7 +18,6 @@
 #include <shadowmath/fit_sphere.hpp>
 #include <shadowmath/lanes.hpp>
 #include <shadowmath/light.hpp>
-#include <shadowmath/long_lanes.hpp>
 #include <shadowmath/margin.hpp>
 #include <shadowmath/reach.hpp>
 #include <shadowmath/splits.hpp>
@@ -152,20 +151,12 @@ template <class T>
 template <class T>
 inline void write_columns(ViewInLight<T> const& seen, Lanes<T> const& scale, Lanes<T> const& offset,
                           Mat4<T>& clip_from_world) noexcept {
-    using Long = LongLanes<T>;
-    static_assert(4 * sizeof scale == sizeof clip_from_world, "columns without a gap");
-    T* const to = &clip_from_world[0].x;
-    if constexpr (Long::fours == 1) {
-        store_long(to, seen.x * scale), store_long(to + 4, seen.y * scale);
-        store_long(to + 8, seen.z * scale), store_long(to + 12, offset);
-    } else {
-        Lanes<T> const column[4] = {seen.x, seen.y, seen.z, offset};
-        Long const scales = repeated<Long>(scale);
-        for (int i = 0; i < 4; i += Long::fours) {
-            Long const scaled = joined<Long>(column + i) * scales;
-            store_long(to + 4 * i, i + Long::fours < 4 ? scaled : with_last(scaled, offset));
-        }
-    }
+    Lanes<T> const x = seen.x * scale, y = seen.y * scale, z = seen.z * scale;
+    static_assert(4 * sizeof x == sizeof clip_from_world, "columns without a gap");
+    std::memcpy(&clip_from_world[0].x, &x, sizeof x);
+    std::memcpy(&clip_from_world[1].x, &y, sizeof y);
+    std::memcpy(&clip_from_world[2].x, &z, sizeof z);
+    std::memcpy(&clip_from_world[3].x, &offset, sizeof offset);
 }
 
 }  // namespace detail
