@@ -3,7 +3,7 @@
 // Masks of four cascades for many boxes. Textbook: six planes a map, one box after the other, out at the first plane.
 #include "bench/cases.hpp"
 
-#include <shadowmath/shadowmath.hpp>
+#include <shadowmath/culling.hpp>
 
 #include <benchmark/benchmark.h>
 

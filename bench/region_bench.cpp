@@ -3,7 +3,7 @@
 // The rectangle of a map that many boxes need. Textbook: eight corners a box, edges cut at w_min.
 #include "bench/cases.hpp"
 
-#include <shadowmath/shadowmath.hpp>
+#include <shadowmath/projected_bounds.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -4,7 +4,10 @@
 #include "bench/bounds.hpp"
 #include "bench/cases.hpp"
 
-#include <shadowmath/shadowmath.hpp>
+#include <shadowmath/cascades.hpp>
+#include <shadowmath/slices.hpp>
+#include <shadowmath/slices_in_scene.hpp>
+#include <shadowmath/slices_of_views.hpp>
 
 #include <benchmark/benchmark.h>
 

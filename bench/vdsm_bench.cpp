@@ -5,7 +5,8 @@
 // multiplied beforehand. `copy` moves as many bytes and computes nothing.
 #include "bench/cases.hpp"
 
-#include <shadowmath/shadowmath.hpp>
+#include <shadowmath/points.hpp>
+#include <shadowmath/vdsm.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -138,6 +138,15 @@ template <int a, int b, int c, int d, class T>
     return Lanes<T>::of(at(a), at(b), at(c), at(d));
 }
 
+// Place by place, brought from `lo` to `hi`, 0 < lo: by their bits, so that nothing is raised by what is no number.
+template <class T>
+[[nodiscard]] inline Lanes<T> between(Lanes<T> const& four, T lo, T hi) noexcept {
+    auto const brought = [lo, hi](T at) {
+        return order_of(at) < order_of(lo) ? lo : order_of(hi) < order_of(at) ? hi : at;
+    };
+    return Lanes<T>::of(brought(four[0]), brought(four[1]), brought(four[2]), brought(four[3]));
+}
+
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
 template <class T>
 class BeyondReach {
@@ -171,6 +180,19 @@ template <int a, int b, int c, int d>
     return {__builtin_shufflevector(four.at, more.at, a, b, c, d)};
 }
 #endif
+
+template <>
+[[nodiscard]] inline Lanes<float> between(Lanes<float> const& four, float lo, float hi) noexcept {
+    using Bits [[gnu::vector_size(16)]] = std::int32_t;
+    Bits at;
+    std::memcpy(&at, &four, sizeof at);
+    Bits const least = Bits{} + order_of(lo), most = Bits{} + order_of(hi);
+    at = at < least ? least : at;
+    at = at > most ? most : at;
+    Lanes<float> made;
+    std::memcpy(&made, &at, sizeof at);
+    return made;
+}
 
 template <>
 class BeyondReach<float> {

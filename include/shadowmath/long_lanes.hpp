@@ -106,6 +106,38 @@ template <class Long, class T>
 #endif
 }
 
+// Fours one behind the other.
+template <class Long, class T>
+[[nodiscard]] inline Long joined(Lanes<T> const* four) noexcept {
+    if constexpr (Long::fours == 1) return four[0];
+#if defined(__AVX__)
+    if constexpr (Long::fours > 1) {
+        auto const a = __builtin_shufflevector(four[0].at, four[1].at, 0, 1, 2, 3, 4, 5, 6, 7);
+#if defined(__AVX512F__)
+        auto const b = __builtin_shufflevector(four[2].at, four[3].at, 0, 1, 2, 3, 4, 5, 6, 7);
+        return {__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)};
+#else
+        return {a};
+#endif
+    }
+#endif
+}
+
+// `four` in the last four places.
+template <class Long, class T>
+[[nodiscard]] inline Long with_last([[maybe_unused]] Long const& lanes, Lanes<T> const& four) noexcept {
+    if constexpr (Long::fours == 1) return four;
+#if defined(__AVX512F__)
+    if constexpr (Long::fours == 4) {
+        auto const all = repeated<Long>(four).at;
+        return {__builtin_shufflevector(lanes.at, all, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 28, 29, 30, 31)};
+    }
+#elif defined(__AVX__)
+    if constexpr (Long::fours == 2)
+        return {__builtin_shufflevector(lanes.at, repeated<Long>(four).at, 0, 1, 2, 3, 12, 13, 14, 15)};
+#endif
+}
+
 template <class Long, class T>
 [[nodiscard]] inline Long long_at(T const* values) noexcept {
     Long lanes;

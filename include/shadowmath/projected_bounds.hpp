@@ -9,6 +9,7 @@
 #include <shadowmath/bounds.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/finite.hpp>
+#include <shadowmath/lanes.hpp>
 #include <shadowmath/reach.hpp>
 #include <shadowmath/wide.hpp>
 
@@ -304,48 +305,63 @@ struct BoundsOfBoxes {
         bounds = merge(bounds, so_far.merged());
     }
 
+    // Points of one box, four at a time: least and largest NDC of those that count, which have nothing lacking.
+    struct BoundsInLanes {
+        using Four = Lanes<T>;
+        Four lo[3] = {Four::all(none), Four::all(none), Four::all(none)};
+        Four hi[3] = {Four::all(-none), Four::all(-none), Four::all(-none)};
+        static constexpr T none = std::numeric_limits<T>::max();
+
+        [[gnu::always_inline]] void add(Four const (&point)[3], Four const& per_w, Four const& lacking) noexcept {
+            Four const zero = Four::all(T(0));
+            for (int r = 0; r < 3; ++r) {
+                Four const ndc = point[r] * per_w;
+                lo[r] = least(where_at_most(lacking, zero, ndc, Four::all(none)), lo[r]);
+                hi[r] = largest(where_at_most(lacking, zero, ndc, Four::all(-none)), hi[r]);
+            }
+        }
+    };
+
     // A box in reach that is partly at w < w_min: its corners in front of that, and where its edges pass through it.
-    void add_astride(BoxArrays<T> const& at, int i) const noexcept {
-        T corner[4][8], above[8];
+    [[gnu::always_inline]] void add_astride(BoxArrays<T> const& at, int i) const noexcept {
+        using Four = Lanes<T>;
+        Four const zero = Four::all(T(0)), one = Four::all(T(1)), least_w = Four::all(w_min);
+        Four lower[4], upper[4];  // rows of the corners at either end of z: x grows first, then y
         for (int r = 0; r < 4; ++r) {
             EndProducts<T> const p(row(matrix, r), at, i);
-            T const xy[4] = {p.x0 + p.y0, p.x1 + p.y0, p.x0 + p.y1, p.x1 + p.y1};
-            for (int k = 0; k < 4; ++k) corner[r][k] = xy[k] + p.z0, corner[r][k + 4] = xy[k] + p.z1;
+            Four const xy = Four::of(p.x0, p.x1, p.x0, p.x1) + Four::of(p.y0, p.y0, p.y1, p.y1);
+            lower[r] = xy + Four::all(p.z0), upper[r] = xy + Four::all(p.z1);
         }
-        constexpr T largest = std::numeric_limits<T>::max();
-        T lo[3] = {largest, largest, largest}, hi[3] = {-largest, -largest, -largest};
-        auto const add = [&](T x, T y, T z, T per_w) {
-            T const ndc[3] = {x * per_w, y * per_w, z * per_w};
-            for (int r = 0; r < 3; ++r) {
-                lo[r] = ndc[r] < lo[r] ? ndc[r] : lo[r];
-                hi[r] = ndc[r] > hi[r] ? ndc[r] : hi[r];
-            }
+        BoundsInLanes in_lanes;
+        auto const add_corners = [&](Four const(&corner)[4]) {
+            in_lanes.add({corner[0], corner[1], corner[2]}, one / largest(corner[3], least_w),
+                         where_at_most(least_w, corner[3], zero, one));
         };
-        unsigned front = 0;
-        for (int k = 0; k < 8; ++k) {
-            above[k] = corner[3][k] - w_min;
-            front |= above[k] >= T(0) ? 1u << k : 0u;
+        add_corners(lower), add_corners(upper);
+        auto const add_edges = [&](Four const(&from)[4], Four const(&to)[4]) {
+            Four const above = from[3] - least_w, other = to[3] - least_w;
+            Four const none_behind = where_at_most(zero, least(above, other), one, zero);
+            Four const lacking = where_at_most(zero, largest(above, other), none_behind, one);
+            // Of an edge that does not pass through: its beginning.
+            Four const t = where_at_most(lacking, zero, above, zero) / where_at_most(lacking, zero, above - other, one),
+                       rest = one - t;
+            in_lanes.add({from[0] * rest + to[0] * t, from[1] * rest + to[1] * t, from[2] * rest + to[2] * t},
+                         one / least_w, lacking);
+        };
+        Four x_from[4], x_to[4], y_from[4], y_to[4];
+        for (int r = 0; r < 4; ++r) {
+            x_from[r] = picked<0, 2, 4, 6>(lower[r], upper[r]), x_to[r] = picked<1, 3, 5, 7>(lower[r], upper[r]);
+            y_from[r] = picked<0, 1, 4, 5>(lower[r], upper[r]), y_to[r] = picked<2, 3, 6, 7>(lower[r], upper[r]);
         }
-        for (int k = 0; k < 8; ++k)
-            if ((front >> k & 1u) != 0) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
-        T const per_w = T(1) / w_min;
-        constexpr unsigned lower_ends[3] = {0x55, 0x33, 0x0f};
-        for (int axis = 0; axis < 3; ++axis) {
-            unsigned const through = (front ^ front >> (1 << axis)) & lower_ends[axis];
-            for (int k = 0; k < 8; ++k) {
-                if ((through >> k & 1u) == 0) continue;
-                int const j = k | 1 << axis;
-                T const t = above[k] / (above[k] - above[j]), rest = T(1) - t;
-                add(corner[0][k] * rest + corner[0][j] * t, corner[1][k] * rest + corner[1][j] * t,
-                    corner[2][k] * rest + corner[2][j] * t, per_w);
-            }
-        }
+        add_edges(x_from, x_to), add_edges(y_from, y_to), add_edges(lower, upper);
         // Numbers that are too large for the type are the largest.
-        for (int r = 0; r < 3; ++r) {
-            T const least = lo[r] < -largest ? -largest : lo[r], most = hi[r] > largest ? largest : hi[r];
-            bounds.lo[r] = least < bounds.lo[r] ? least : bounds.lo[r];
-            bounds.hi[r] = most > bounds.hi[r] ? most : bounds.hi[r];
-        }
+        constexpr T largest_number = std::numeric_limits<T>::max();
+        for (int r = 0; r < 3; ++r)
+            for (int k = 0; k < 4; ++k) {
+                T const lo = in_lanes.lo[r][k], hi = in_lanes.hi[r][k];
+                bounds.lo[r] = BoundsInBlocks<T>::less(BoundsInBlocks<T>::more(lo, -largest_number), bounds.lo[r]);
+                bounds.hi[r] = BoundsInBlocks<T>::more(BoundsInBlocks<T>::less(hi, largest_number), bounds.hi[r]);
+            }
     }
 
     // Whatever they are.

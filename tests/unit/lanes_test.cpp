@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tests/support/watched.hpp"
+
 #include <shadowmath/lanes.hpp>
 
 #include <gtest/gtest.h>
@@ -6,6 +8,7 @@
 #include <limits>
 
 using namespace shadowmath;
+using shadowmath::test::watched;
 
 namespace {
 
@@ -56,6 +59,27 @@ void expect_reach_of_each_lane() {
         }
 }
 
+// Whatever it was before.
+template <class T>
+void expect_to_be_brought_between() {
+    T const infinity = std::numeric_limits<T>::infinity(), nan = std::numeric_limits<T>::quiet_NaN();
+    auto const brought = [](T a, T b, T c, T d) {
+        auto const by = watched([&] { return between(detail::Lanes<T>::of(a, b, c, d), T(0.5), T(1e18L)); });
+        EXPECT_EQ(by.raised, 0);
+        return by.result;
+    };
+    auto const numbers = brought(T(0.25), T(0.75), T(-3), T(2e18L));
+    EXPECT_EQ(numbers[0], T(0.5));
+    EXPECT_EQ(numbers[1], T(0.75));
+    EXPECT_EQ(numbers[2], T(0.5));
+    EXPECT_EQ(numbers[3], T(1e18L));
+    auto const none = brought(nan, infinity, -infinity, -T(0));
+    EXPECT_EQ(none[0], T(1e18L));
+    EXPECT_EQ(none[1], T(1e18L));
+    EXPECT_EQ(none[2], T(0.5));
+    EXPECT_EQ(none[3], T(0.5));
+}
+
 template <class T>
 void expect_moves() {
     using Lanes = detail::Lanes<T>;
@@ -69,6 +93,12 @@ void expect_moves() {
 }
 
 }  // namespace
+
+TEST(Lanes, AreBroughtBetweenBoundsWhateverTheyWere) {
+    expect_to_be_brought_between<float>();
+    expect_to_be_brought_between<double>();
+    expect_to_be_brought_between<long double>();
+}
 
 TEST(Lanes, TellWhichOfThemIsBeyondReach) {
     expect_reach_of_each_lane<float>();

@@ -54,7 +54,25 @@ void expect_fours_and_numbers_to_be_spread() {
             EXPECT_EQ(lane<T>(detail::spread<Long<T>>(four, first), i), four[first + i / 4]);
 }
 
+template <class T>
+void expect_fours_to_be_joined() {
+    detail::Lanes<T> four[4];
+    for (int i = 0; i < 4; ++i) four[i] = detail::Lanes<T>::of(T(4 * i), T(4 * i + 1), T(4 * i + 2), T(4 * i + 3));
+    auto const last = detail::Lanes<T>::of(T(-1), T(-2), T(-3), T(-4));
+    Long<T> const joined = detail::joined<Long<T>>(four), ended = detail::with_last(joined, last);
+    for (int i = 0; i < lane_count<T>; ++i) {
+        int const from_last = i - (lane_count<T> - 4);
+        EXPECT_EQ(lane<T>(joined, i), T(i));
+        EXPECT_EQ(lane<T>(ended, i), from_last < 0 ? T(i) : last[from_last]);
+    }
+}
+
 }  // namespace
+
+TEST(LongLanes, JoinFours) {
+    expect_fours_to_be_joined<float>();
+    expect_fours_to_be_joined<double>();
+}
 
 TEST(LongLanes, ComputeLaneByLane) {
     expect_lane_by_lane<float>();
