@@ -17,11 +17,9 @@ namespace shadowmath::laws {
 template <class T>
 [[nodiscard]] bool holds_body_and_margin(LightBox<T> const& box, ConvexBody<T> const& body, int map_size,
                                          T margin_texels) {
-    bool holds = true;
+    bool holds = has_extent(box);
     for_each_vertex(body, [&](Vec3<T> const& v) {
-        std::array<Vec3<T>, 8> point;
-        point.fill(v);
-        holds = holds && holds_corners_and_margin(box, point, map_size, margin_texels);
+        holds = holds && holds_point_and_margin(box, v, light_rounding(v), map_size, margin_texels);
     });
     return holds;
 }
