@@ -18,8 +18,8 @@ template <class T>
 }
 
 // M * light = (0, 0, k, 0), k > 0, or < 0 where depth is reversed: every ray of the light is one texel, and depth along
-// it is ordered. Each zero within `operations` roundings of |row| |light|. k must stand out of 32 of its own row, however
-// many stand behind the zeros: in OpenGL's default range that row is mostly w, and k as far as the casters are away.
+// it is ordered. Each zero within `operations` roundings of |row| |light|. k must stand out of 32 of its own row,
+// however many stand behind the zeros: in OpenGL's default range that row is mostly w, and k falls as casters recede.
 template <class T>
 [[nodiscard]] bool is_map_of(Mat4<T> const& clip_from_world, Light<T> const& light, ClipSpace clip,
                              int operations = 32) {
