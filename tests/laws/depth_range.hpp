@@ -7,13 +7,18 @@
 
 #include <shadowmath/depth_range.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace shadowmath::laws {
 
-// Where three of the twelve planes of box and volume meet, inside all twelve within `slack`: the corners of the common
-// part, found the slow way. Returns the depths between them.
-[[nodiscard]] inline DepthRange<Long> common_depths(Aabb<Long> const& box, ViewVolume<Long> const& volume, Long slack) {
+// Where three of the twelve planes of box and volume meet, inside all twelve within a slack: the corners of the common
+// part, found the slow way. Returns the depths between them, for each slack.
+template <std::size_t N>
+[[nodiscard]] std::array<DepthRange<Long>, N> common_depths(Aabb<Long> const& box, ViewVolume<Long> const& volume,
+                                                            std::array<Long, N> const& slacks) {
     std::array<Vec4<Long>, 12> planes;
     std::array<Vec4<Long>, 6> const sides = detail::inner_planes(volume);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -23,24 +28,31 @@ namespace shadowmath::laws {
         planes[i] = face;
         planes[6 + i] = sides[i] / glm::length(Vec3<Long>(sides[i]));
     }
-    DepthRange<Long> range{volume.z_far, volume.z_near, false};
+    std::array<DepthRange<Long>, N> ranges;
+    ranges.fill({volume.z_far, volume.z_near, false});
+    Long const largest_slack = *std::max_element(slacks.begin(), slacks.end());
     for (std::size_t i = 0; i < 12; ++i)
-        for (std::size_t j = i + 1; j < 12; ++j)
+        for (std::size_t j = i + 1; j < 12; ++j) {
+            Vec3<Long> const a(planes[i]), b(planes[j]), along = glm::cross(a, b);
             for (std::size_t k = j + 1; k < 12; ++k) {
-                Vec3<Long> const a(planes[i]), b(planes[j]), c(planes[k]);
-                Long const volume6 = glm::dot(a, glm::cross(b, c));
+                Vec3<Long> const c(planes[k]);
+                Long const volume6 = glm::dot(along, c);
                 if (std::abs(volume6) < 1e-12L) continue;
-                Vec3<Long> const point = -(glm::cross(b, c) * planes[i].w + glm::cross(c, a) * planes[j].w +
-                                           glm::cross(a, b) * planes[k].w) /
-                                         volume6;
-                bool inside = true;
-                for (Vec4<Long> const& plane : planes)
-                    inside = inside && glm::dot(plane, Vec4<Long>(point, 1)) >= -slack;
-                if (!inside) continue;
-                Long const depth = eye_depth(volume, point);
-                range = {std::fmin(range.lo, depth), std::fmax(range.hi, depth), true};
+                Vec3<Long> const weighted = b * planes[i].w - a * planes[j].w;
+                Vec3<Long> const point = -(glm::cross(weighted, c) + along * planes[k].w) / volume6;
+                Long least = std::numeric_limits<Long>::max();
+                for (Vec4<Long> const& plane : planes) {
+                    least = std::min(least, glm::dot(plane, Vec4<Long>(point, 1)));
+                    if (least < -largest_slack) break;
+                }
+                for (std::size_t s = 0; s < N; ++s)
+                    if (DepthRange<Long>& range = ranges[s]; least >= -slacks[s]) {
+                        Long const depth = eye_depth(volume, point);
+                        range = {std::min(range.lo, depth), std::max(range.hi, depth), true};
+                    }
             }
-    return range;
+        }
+    return ranges;
 }
 
 // depths_inside finds what the oracle finds: it loses nothing, and adds no more than `slack` metres at either end.
@@ -49,8 +61,8 @@ template <class T>
 [[nodiscard]] bool finds_the_common_depths(Aabb<T> const& box, ViewVolume<T> const& volume, Long slack) {
     Aabb<Long> const exact_box{Vec3<Long>(box.lo), Vec3<Long>(box.hi)};
     DepthRange<T> const found = depths_inside(box, volume);
-    DepthRange<Long> const inner = common_depths(exact_box, widened_to_long(volume), 1e-15L * Long(volume.z_far));
-    DepthRange<Long> const outer = common_depths(exact_box, widened_to_long(volume), slack);
+    auto const [inner, outer] =
+        common_depths<2>(exact_box, widened_to_long(volume), {1e-15L * Long(volume.z_far), slack});
     if (inner.visible &&
         !(found.visible && Long(found.lo) <= inner.lo + slack * 1e-3L && Long(found.hi) >= inner.hi - slack * 1e-3L))
         return false;

@@ -9,31 +9,49 @@
 
 namespace shadowmath::laws {
 
-// What light-space coordinates of the corners are rounded by: three products of unit axes and the corner, their sum.
+// What light-space coordinates of a point are rounded by: three products of unit axes and the point, their sum.
 template <class T>
-[[nodiscard]] long double light_rounding(std::array<Vec3<T>, 8> const& body) {
-    long double farthest = 0;
-    for (Vec3<T> const& corner : body) farthest = std::fmax(farthest, glm::length(Vec3<long double>(corner)));
-    return 8 * static_cast<long double>(std::numeric_limits<T>::epsilon()) * farthest;
+[[nodiscard]] long double light_rounding(Vec3<T> const& point) {
+    return 8 * static_cast<long double>(std::numeric_limits<T>::epsilon()) * glm::length(Vec3<long double>(point));
 }
 
-// At least the margin between every corner and every side, and every depth between the ends.
+// Of the corners: that of the farthest.
+template <class T>
+[[nodiscard]] long double light_rounding(std::array<Vec3<T>, 8> const& body) {
+    long double largest = 0;
+    for (Vec3<T> const& corner : body) largest = std::fmax(largest, light_rounding(corner));
+    return largest;
+}
+
+// At least the margin between the point and every side, and its depth between the ends.
+template <class T>
+[[nodiscard]] bool holds_point_and_margin(LightBox<T> const& box, Vec3<T> const& point, long double rounding,
+                                          int map_size, T margin_texels) {
+    using Long = long double;
+    LightBasis<Long> const basis{Vec3<Long>(box.basis.x), Vec3<Long>(box.basis.y), Vec3<Long>(box.basis.depth)};
+    Vec3<Long> const at = in_light(basis, Vec3<Long>(point));
+    for (int axis = 0; axis < 2; ++axis) {
+        Long const lo = box.lo[axis], hi = box.hi[axis];
+        Long const margin = Long(margin_texels) * (hi - lo) / map_size;
+        if (!(at[axis] >= lo + margin - rounding && at[axis] <= hi - margin + rounding)) return false;
+    }
+    return at.z >= Long(box.depth_lo) - rounding && at.z <= Long(box.depth_hi) + rounding;
+}
+
+template <class T>
+[[nodiscard]] bool has_extent(LightBox<T> const& box) {
+    return box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
+}
+
+// The same of every corner.
 template <class T>
 [[nodiscard]] bool holds_corners_and_margin(LightBox<T> const& box, std::array<Vec3<T>, 8> const& body, int map_size,
                                             T margin_texels) {
-    using Long = long double;
-    LightBasis<Long> const basis{Vec3<Long>(box.basis.x), Vec3<Long>(box.basis.y), Vec3<Long>(box.basis.depth)};
-    Long const rounding = light_rounding(body);
-    for (Vec3<T> const& corner : body) {
-        Vec3<Long> const at = in_light(basis, Vec3<Long>(corner));
-        for (int axis = 0; axis < 2; ++axis) {
-            Long const lo = box.lo[axis], hi = box.hi[axis];
-            Long const margin = Long(margin_texels) * (hi - lo) / map_size;
-            if (!(at[axis] >= lo + margin - rounding && at[axis] <= hi - margin + rounding)) return false;
-        }
-        if (!(at.z >= Long(box.depth_lo) - rounding && at.z <= Long(box.depth_hi) + rounding)) return false;
-    }
-    return box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.depth_lo < box.depth_hi;
+    bool holds = has_extent(box);
+    long double const rounding = light_rounding(body);
+    for (Vec3<T> const& corner : body)
+        holds = holds && holds_point_and_margin(box, corner, rounding, map_size, margin_texels);
+    return holds;
 }
 
 // Extent of the body and that of the box without its margins agree on all three axes: for bodies that are not flat.
@@ -58,8 +76,8 @@ template <class T>
 template <class T>
 [[nodiscard]] bool is_a_box(LightBox<T> const& box) {
     return all_finite(box.lo) && all_finite(box.hi) && all_finite(&box.depth_lo, 1) && all_finite(&box.depth_hi, 1) &&
-           all_finite(box.basis.x) && all_finite(box.basis.y) && all_finite(box.basis.depth) && box.lo.x < box.hi.x &&
-           box.lo.y < box.hi.y && box.depth_lo < box.depth_hi && all_finite(clip_from_world(box, gl_clip));
+           all_finite(box.basis.x) && all_finite(box.basis.y) && all_finite(box.basis.depth) && has_extent(box) &&
+           all_finite(clip_from_world(box, gl_clip));
 }
 
 }  // namespace shadowmath::laws

@@ -13,15 +13,16 @@
 
 namespace shadowmath::laws {
 
-// At least the margin between every vertex and every side, every depth between the ends.
+// At least the margin between every vertex and every side, every depth between the ends. What the farthest vertex is
+// rounded by is rounded off the sides, so a near one is held no closer than that.
 template <class T>
 [[nodiscard]] bool holds_body_and_margin(LightBox<T> const& box, ConvexBody<T> const& body, int map_size,
                                          T margin_texels) {
-    bool holds = true;
+    long double rounding = 0;
+    for_each_vertex(body, [&](Vec3<T> const& v) { rounding = std::max(rounding, light_rounding(v)); });
+    bool holds = has_extent(box);
     for_each_vertex(body, [&](Vec3<T> const& v) {
-        std::array<Vec3<T>, 8> point;
-        point.fill(v);
-        holds = holds && holds_corners_and_margin(box, point, map_size, margin_texels);
+        holds = holds && holds_point_and_margin(box, v, rounding, map_size, margin_texels);
     });
     return holds;
 }

@@ -26,7 +26,7 @@ template <class T>
         orthographic_view(Pose<Wide>{Vec3<Wide>(0), exact.x, exact.y, exact.depth}, Wide(lo.x), Wide(hi.x), Wide(lo.y),
                           Wide(hi.y), -2 * size, 2 * size);
     Wide const rounding = 64 * static_cast<Wide>(std::numeric_limits<T>::epsilon()) * size;
-    DepthRange<Wide> const truth = common_depths(wide_box, shaft, 1e-15L * size);
+    DepthRange<Wide> const truth = common_depths<1>(wide_box, shaft, {1e-15L * size})[0];
     return !truth.visible || Wide(entry) <= truth.lo + rounding;
 }
 

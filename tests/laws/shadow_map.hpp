@@ -18,13 +18,14 @@ template <class T>
 }
 
 // M * light = (0, 0, k, 0), k > 0, or < 0 where depth is reversed: every ray of the light is one texel, and depth along
-// it is ordered. Each zero within `operations` roundings of |row| |light|; k must stand out of them.
+// it is ordered. Each zero within `operations` roundings of |row| |light|. k must stand out of 32 of its own row,
+// however many stand behind the zeros: in OpenGL's default range that row is mostly w, and k falls as casters recede.
 template <class T>
 [[nodiscard]] bool is_map_of(Mat4<T> const& clip_from_world, Light<T> const& light, ClipSpace clip,
                              int operations = 32) {
     Vec4<T> const source = homogeneous(light);
     Vec4<long double> const image = image_of(clip_from_world, source);
-    long double const noise = static_cast<long double>(operations) * std::numeric_limits<T>::epsilon();
+    long double const eps = std::numeric_limits<T>::epsilon(), noise = operations * eps;
     long double const light_length = glm::length(Vec4<long double>(source));
     auto const vanishes = [&](int r) {
         long double const row_length = glm::length(Vec4<long double>(row(clip_from_world, r)));
@@ -32,7 +33,7 @@ template <class T>
     };
     long double const k = clip.depth == DepthOrder::one_to_zero ? -image.z : image.z;
     long double const depth_length = glm::length(Vec3<long double>(Vec4<long double>(row(clip_from_world, 2))));
-    return vanishes(0) && vanishes(1) && vanishes(3) && k > 0 && k > noise * depth_length;
+    return vanishes(0) && vanishes(1) && vanishes(3) && k > 0 && k > 32 * eps * depth_length;
 }
 
 // The point lies in front of the light (w > 0), at least `margin_ndc` inside the four sides of the map, and between its

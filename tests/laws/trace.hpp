@@ -15,44 +15,73 @@ using Real = long double;
 
 enum class Answer { lit, dark, undecided };
 
-// Does the segment from the sample to the light meet the triangle? Undecided where moving anything by `slack` metres
-// could change that; `contact` is how far off its plane the sample must be.
-inline Answer meets(Vec3<Real> const& sample, Light<Real> const& light, test::Triangle<Real> const& t, Real contact,
-                    Real slack) {
-    Vec3<Real> const normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    Real const area = glm::length(normal);
-    bool const sun = light.kind == LightKind::directional;
-    Vec3<Real> const way = sun ? -light.direction : light.position - sample;
-    Real const slope = glm::dot(normal, way);
-    Real const reach = glm::length(way);
-    if (!(area > 0)) return Answer::undecided;
-    // Signed volumes: positive on the inner side of each edge.
-    Real const turn = slope < 0 ? Real(-1) : Real(1);
-    Answer answer = Answer::dark;
-    auto const require = [&](Real inside, Real margin) {
-        if (inside < -margin) answer = Answer::lit;
-        if (std::abs(inside) <= margin && answer == Answer::dark) answer = Answer::undecided;
-    };
-    bool outside = false;
+inline Real sum_of_parts(Vec3<Real> const& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+// From a point to the light; to a sun, as far as its direction is long.
+inline Vec3<Real> way_to(Light<Real> const& light, Vec3<Real> const& from) {
+    return light.kind == LightKind::directional ? -light.direction : light.position - from;
+}
+
+// A triangle under a light, and what of both is the same for every sample.
+struct Caster {
+    test::Triangle<Real> corner;
+    std::array<Vec3<Real>, 3> side;  // of the plane through an edge and the light
+    std::array<Real, 3> edge;        // metres
+    Vec3<Real> normal;
+    Real area = 0, weight = 0;  // length of the normal; sum of its parts over that
+    Real distances = 0;         // of the three corners from the origin, added
+};
+
+template <class T>
+Caster caster_of(test::Triangle<T> const& triangle, Light<Real> const& light) {
+    Caster caster;
+    test::Triangle<Real>& t = caster.corner;
+    for (std::size_t i = 0; i < 3; ++i) t[i] = Vec3<Real>(triangle[i]);
     for (std::size_t i = 0; i < 3; ++i) {
-        Vec3<Real> const a = t[i] - sample, b = t[(i + 1) % 3] - sample;
-        Vec3<Real> const side = glm::cross(a, b);
-        // d/d(sample) of the volume: no more than the edge's length times the way's.
-        Real const value = glm::dot(side, way) * turn,
-                   gain = (glm::length(b - a) + glm::length(a) * Real(1e-3)) * reach;
-        outside = outside || value < -slack * gain;
-        require(value, slack * gain);
+        Vec3<Real> const edge = t[(i + 1) % 3] - t[i];
+        caster.side[i] = glm::cross(edge, way_to(light, t[i]));
+        caster.edge[i] = glm::length(edge);
+        caster.distances += glm::length(t[i]);
     }
-    if (outside) return Answer::lit;
-    Real const behind = -glm::dot(normal, sample - t[0]) * turn / area;
-    Real const weight = (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / area;
+    caster.normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    caster.area = glm::length(caster.normal);
+    if (caster.area > 0) caster.weight = sum_of_parts(caster.normal) / caster.area;
+    return caster;
+}
+
+// Does the segment from the sample to the light meet the caster? Undecided where moving anything by `slack` metres
+// could change that; `contact` is how far off its plane the sample must be.
+inline Answer meets(Vec3<Real> const& sample, Light<Real> const& light, Caster const& caster, Real contact,
+                    Real slack) {
+    Vec3<Real> const& normal = caster.normal;
+    Vec3<Real> const way = way_to(light, sample);
+    if (!(caster.area > 0)) return Answer::undecided;
+    Real const turn = glm::dot(normal, way) < 0 ? Real(-1) : Real(1);
+    Answer answer = Answer::dark;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vec3<Real> const to_corner = caster.corner[i] - sample;
+        // The volume that sample, edge and way span, positive on the inner side of the edge. Its change with the
+        // sample: no more than the edge's length times the way's.
+        Real const volume = glm::dot(caster.side[i], to_corner) * turn;
+        auto const margin_at = [&](Real distance, Real reach) {
+            return slack * (caster.edge[i] + distance * Real(1e-3)) * reach;
+        };
+        // A sum of parts is no less than the length and takes no root: it decides nearly always.
+        bool const decided = std::abs(volume) > margin_at(sum_of_parts(to_corner), sum_of_parts(way));
+        Real const margin = decided ? Real(0) : margin_at(glm::length(to_corner), glm::length(way));
+        if (volume < -margin) return Answer::lit;
+        if (volume <= margin) answer = Answer::undecided;
+    }
+    Real const behind = -glm::dot(normal, sample - caster.corner[0]) * turn / caster.area;
     if (behind < -slack) return Answer::lit;
     // Within the margin of contact either answer will do: its exact extent is no law.
-    if (behind < 2 * weight * contact + slack && answer != Answer::lit) answer = Answer::undecided;
-    if (!sun) {
-        Real const lamp = glm::dot(normal, light.position - t[0]) * turn / area;
+    if (behind < 2 * caster.weight * contact + slack) answer = Answer::undecided;
+    if (light.kind == LightKind::spot) {
+        Real const lamp = glm::dot(normal, light.position - caster.corner[0]) * turn / caster.area;
         if (lamp < -slack) return Answer::lit;
-        if (lamp < slack && answer == Answer::dark) answer = Answer::undecided;
+        if (lamp < slack) answer = Answer::undecided;
     }
     return answer;
 }
@@ -67,6 +96,8 @@ template <class T>
     exact.kind = light.kind;
     exact.direction = Vec3<Real>(light.direction);
     exact.position = Vec3<Real>(light.position);
+    std::vector<Caster> prepared;
+    for (test::Triangle<T> const& caster : casters) prepared.push_back(caster_of(caster, exact));
     Real const eps = std::numeric_limits<T>::epsilon();
     Vec4<Real> const row_of_w(row(grid.clip_from_world, 3));
     for (std::size_t pixel = 0; pixel < masks.size(); ++pixel) {
@@ -97,11 +128,9 @@ template <class T>
                 point_on(frame, quad, column, row, pixel_samples<Real>.u[s], pixel_samples<Real>.v[s]);
             Real out_there = glm::length(at) + glm::length(at - frame.eye) + glm::length(frame.eye);
             Answer wanted = Answer::lit;
-            for (test::Triangle<T> const& caster : casters) {
-                test::Triangle<Real> const t{Vec3<Real>(caster[0]), Vec3<Real>(caster[1]), Vec3<Real>(caster[2])};
-                Real reach = out_there;
-                for (Vec3<Real> const& p : t) reach += glm::length(p);
-                Answer const answer = meets(at, exact, t, 4 * contact_share<Real> * (1 + reach), 64 * eps * reach);
+            for (Caster const& caster : prepared) {
+                Real const reach = out_there + caster.distances;
+                Answer const answer = meets(at, exact, caster, 4 * contact_share<Real> * (1 + reach), 64 * eps * reach);
                 if (answer == Answer::dark) wanted = Answer::dark;
                 if (answer == Answer::undecided && wanted == Answer::lit) wanted = Answer::undecided;
                 if (wanted == Answer::dark) break;

@@ -32,7 +32,7 @@ struct Watched {
 
 template <class Call>
 [[nodiscard, gnu::noinline]] auto watched(Call const& call) -> Watched<decltype(call())> {
-    std::feclearexcept(FE_ALL_EXCEPT);
+    if (std::fetestexcept(watched_flags) != 0) std::feclearexcept(watched_flags);  // to clear is slow, to ask is not
     std::uint64_t const before = allocation_count();
     auto result = call();
     // NOTE: without it the compiler may move the arithmetic past the reading of the flags.

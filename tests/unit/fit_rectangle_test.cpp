@@ -48,6 +48,16 @@ TEST(FitRectangle, FindsATurnedRectangleExactly) {
     }
 }
 
+// Found by the fuzzer. Margins of eight texels of 19 put the sides six bodies apart, where the last bit of a double is a
+// hundred times what a vertex 14 micrometres from the origin is rounded by.
+TEST(FitRectangle, HoldsAVertexNearTheOriginToTheRoundingOfItsBody) {
+    Aabb<double> const body{V3(-0x1.3f33f5c28f5c2p-6, -0x1.4028f5c28f5c2p-6, -0x1.4028f52a0f5c2p-6),
+                            V3(-0x1.98147ae147bp-15, 0x1.47ae147ae14p-17, 0x1.47a9507ae14p-17)};
+    LightBasis<double> const basis = light_basis(V3(-0x1.6a0a8eb2b4f46p-1, 0, 0x1.6a093e1ce44a4p-1));
+    auto const box = fit_rectangle(basis, convex_body(body), 19, 0x1.fffffff2p+2, V3(-1, -1, 0) * std::sqrt(0.5));
+    EXPECT_TRUE(laws::holds_body_and_margin(box, convex_body(body), 19, 0x1.fffffff2p+2));
+}
+
 TEST(FitRectangle, TakesTheQuarterTurnNearestToTheAxesGiven) {
     for (double angle = 0.0; angle < 6.3; angle += 0.37)
         EXPECT_GE(glm::dot(fit_rectangle(overhead, plank(angle), 1024, 0.0).basis.x, overhead.x),

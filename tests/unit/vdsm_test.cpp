@@ -462,3 +462,30 @@ TEST(ReceiverValid, IsWhereWIsAboveItsLeast) {
     map.visible = false;
     EXPECT_FALSE(receiver_valid(map, Vec3<double>(3, 4, 5)));
 }
+
+// Found by the fuzzer: the caster is nine times as far away as the view is deep, the plane lies along light and eye, and
+// the depth row of a float is -w but for 190 roundings. Those suffice.
+TEST(Vdsm, OrdersAFarCasterInOpenGlsDefaultRange) {
+    using F3 = glm::vec3;
+    ViewVolume<float> eye;
+    eye.pose.position = F3(-0x1.410c74p-1f, 0x1.90f1b2p-2f, 0x1.0659f4p-2f);
+    eye.pose.right = F3(-0x1.c3f348p-5f, 0x1.941adap-1f, -0x1.391f3ap-1f);
+    eye.pose.up = F3(-0x1.9c82e4p-1f, 0x1.4e6e9cp-2f, 0x1.fa085ep-2f);
+    eye.pose.forward = F3(-0x1.2df612p-1f, -0x1.0a3ca2p-1f, -0x1.3c5b3cp-1f);
+    eye.left = -0x1.934778p+0f;
+    eye.right = 0x1.f20f2p-1f;
+    eye.bottom = -0x1.ade964p-1f;
+    eye.top = 0x1.ade964p-1f;
+    eye.z_near = 0x1.2b086p-4f;
+    eye.z_far = 0x1.d45142p+3f;
+    Light<float> const sun = directional(F3(-0x1.2a5a36p-1f, -0x1.46a538p-3f, -0x1.97ff24p-1f));
+    F3 const point(-0x1.a52a2ap+0f, 0x1.1e219cp-3f, -0x1.4191aap+0f);
+    F3 const caster(0x1.0ad07cp+6f, 0x1.2d8e88p+4f, 0x1.70d7dp+6f);
+    ShadowPlane<float> const plane = plane_through(point, F3(0x1.236ffep-1f, 0x1.0e5976p-1f, -0x1.42ace4p-1f));
+    Aabb<float> const receivers{F3(-0x1.08819cp+3f, -0x1.36c6a2p+2f, -0x1.4191aap+0f),
+                                F3(0x1.3e6e22p+2f, 0x1.48a8bap+2f, -0x1.4191aap+0f)};
+    VdsmOptions<float> const options;
+    auto const map = view_dependent_map(eye, sun, plane, merge(receivers, caster), receivers, options, gl_clip);
+    EXPECT_TRUE(laws::is_map_of(map.clip_from_world, sun, gl_clip, 256));
+    EXPECT_TRUE(laws::keeps_the_order(map, caster, point));
+}

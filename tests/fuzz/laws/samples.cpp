@@ -6,8 +6,26 @@
 #include "tests/laws/sample_depths.hpp"
 #include "tests/laws/sdsm.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 namespace shadowmath::fuzz {
 namespace {
+
+// As of the properties of the same laws: even splits are as deep as the root of the whole, adaptive ones no deeper than
+// any placing would have them, but for a bin at either end.
+template <class T>
+void require_shallow(Case& c, Splits<T> const& splits, std::vector<T> samples, int asked, SampleSplits kind) {
+    std::sort(samples.begin(), samples.end());
+    int const count = std::min(asked, max_splits);
+    long double const whole = static_cast<long double>(samples.back()) / samples.front();
+    long double const least =
+        kind == SampleSplits::even ? std::pow(whole, 1.0L / count) : laws::least_worst_ratio(samples, count) * 33 / 32;
+    long double const rounding = 1e-6L + 4 * count * static_cast<long double>(std::numeric_limits<T>::epsilon());
+    c.require(laws::worst_ratio(splits, samples, T(0)) <= std::max(least, 1.05L * 33 / 32) * (1 + rounding),
+              "no other placing of the splits is better");
+}
 
 template <class T>
 void try_samples(Case& c) {
@@ -33,6 +51,10 @@ void try_samples(Case& c) {
     Splits<T> const splits = c.call([&] { return sample_splits(depths, asked, kind); });
     c.require(laws::is_in_order(depths), "bins are in order");
     c.require(laws::is_ordered(splits, depths, asked), "splits follow the samples from near to far");
+    std::vector<T> counted;
+    std::copy_if(depth, depth + count, std::back_inserter(counted),
+                 [&](T at) { return at >= view.z_near && at < view.z_far; });
+    if (good && splits.count > 0 && !counted.empty()) require_shallow(c, splits, counted, asked, kind);
     SampleBounds<T> bounds = c.call([&] { return no_bounds(splits, c.number<T>()); });
     for (int i = 0; i < count; ++i) add(bounds, rays, x[i], y[i], depth[i]);
 
