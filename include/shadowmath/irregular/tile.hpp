@@ -108,72 +108,90 @@ struct TileKernel {
         return inside;
     }
 
-    void see(int tile, int column, int row, Seen& seen) const noexcept {
+    // The quads of sixteen pixels (micro_quad, of which these are the lanes): q + q_x x + q_y y at the corner of a pixel,
+    // which is one over the depth, or the depth itself where the eye is flat.
+    struct Quads {
+        Lanes x, y;  // of the lower corners, pixels from the middle of the picture
+        Lanes normal_x, normal_y, normal_z;
+        Lanes toward_middle, facing, depth;
+        Lanes middle, to_corner, q, q_x, q_y;
+        std::uint32_t sound;  // numbers, in the picture
+
+        [[nodiscard]] Lanes size() const noexcept { return absolute(q) + absolute(q_x) + absolute(q_y); }
+    };
+    [[nodiscard]] Quads quads_of(Surface const& surface, int column, int row) const noexcept {
         PixelFrame<T> const& frame = buffer.frame;
         auto const all = [](T value) { return Lanes::all(value); };
-        Surface surface;
-        gather(column, row, surface);
         Lanes const zero = all(T(0)), one = all(T(1)), half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min());
-        Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
-        Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
-        Lanes const(&m)[3] = surface.normal;
+        Quads quads;
+        quads.x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
+        quads.y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
         auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
             return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
         };
-        Lanes const depth = receivers.position != nullptr ? dot(frame.to_inward, surface.place) : surface.place[0];
-        Lanes const nx = dot(frame.across, m), ny = dot(frame.upward, m), nz = dot(frame.inward, m);
-
-        // The quad; see micro_quad, of which these are the lanes.
-        Lanes const toward_middle = flat ? nz : fused(nx, x + half, fused(ny, y + half, nz));
-        Lanes const facing = flat ? zero - nz : toward_middle;
+        Lanes const depth = quads.depth =
+            receivers.position != nullptr ? dot(frame.to_inward, surface.place) : surface.place[0];
+        Lanes const nx = quads.normal_x = dot(frame.across, surface.normal);
+        Lanes const ny = quads.normal_y = dot(frame.upward, surface.normal);
+        Lanes const nz = quads.normal_z = dot(frame.inward, surface.normal);
+        quads.toward_middle = flat ? nz : fused(nx, quads.x + half, fused(ny, quads.y + half, nz));
+        Lanes const facing = quads.facing = flat ? zero - nz : quads.toward_middle;
         Lanes const steep = (absolute(nx) + absolute(ny)) * all(turn);
         Lanes const divisor = with_sign_of(most(absolute(facing), steep), facing);
         // A comparison with NaN is false.
-        Lanes const largest_number = all(std::numeric_limits<T>::max());
         std::uint32_t sound = at_least(absolute(divisor), tiny);
         if (!flat) sound &= at_least(depth, tiny);
         Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
-        Lanes const q_x = nx * scale, q_y = ny * scale;
-        Lanes const middle = flat ? depth : divisor * scale, to_corner = (q_x + q_y) * half;
-        Lanes const q = middle - to_corner;
-        sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
+        quads.q_x = nx * scale, quads.q_y = ny * scale;
+        quads.middle = flat ? depth : divisor * scale, quads.to_corner = (quads.q_x + quads.q_y) * half;
+        quads.q = quads.middle - quads.to_corner;
+        sound &= at_least(all(std::numeric_limits<T>::max()), quads.size());
         sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
-        seen.alive = seen.away = 0;
-        if (sound == 0) return;
+        quads.sound = sound;
+        return quads;
+    }
 
-        // Light and eye on the same side?
+    // Those whose surface has light and eye on the same side.
+    [[nodiscard]] std::uint32_t facing_light(Quads const& quads) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        Lanes const half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min()), under = all(T(0)) - tiny;
+        Lanes const &nx = quads.normal_x, &ny = quads.normal_y, &nz = quads.normal_z;
         Lanes travel =
             fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
-            travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
-        Lanes const under = zero - tiny;
-        std::uint32_t const lit = (at_least(travel, tiny) & at_least(toward_middle, tiny)) |
-                                  (at_least(under, travel) & at_least(under, toward_middle));
-        seen.away = sound & ~lit;
-        sound &= lit;
-        if (sound == 0) return;
+            travel = (flat ? fused(nx, quads.x + half, fused(ny, quads.y + half, nz * quads.depth))
+                           : quads.depth * quads.facing) -
+                     travel;
+        return (at_least(travel, tiny) & at_least(quads.toward_middle, tiny)) |
+               (at_least(under, travel) & at_least(under, quads.toward_middle));
+    }
 
-        // The four corners as the light sees them. Before an eye of perspective, values are over the depth.
+    // What the four corners of each quad cover as the light sees them, and more by what rounding may add, so that no
+    // triangle misses a texel. Those of `among` of which that can be said are alive.
+    void cover(Quads const& quads, std::uint32_t among, Seen& seen) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        Lanes const one = all(T(1)), tiny = all(std::numeric_limits<T>::min());
+        // Before an eye of perspective, values are over the depth.
         Lanes at[4], gain_x[4], gain_y[4];
         for (int i = 0; i < 4; ++i) {
             PixelPlane<T> const& p = plane[i];
-            at[i] = fused(all(p.x), x, fused(all(p.y), y, fused(all(p.b), q, all(p.a))));
-            gain_x[i] = fused(all(p.b), q_x, all(p.x));
-            gain_y[i] = fused(all(p.b), q_y, all(p.y));
+            at[i] = fused(all(p.x), quads.x, fused(all(p.y), quads.y, fused(all(p.b), quads.q, all(p.a))));
+            gain_x[i] = fused(all(p.b), quads.q_x, all(p.x));
+            gain_y[i] = fused(all(p.b), quads.q_y, all(p.y));
         }
-        Lanes steepest = zero;
+        Lanes steepest = all(T(0));
         for (int corner = 0; corner < 4; ++corner) {
-            Lanes value[4], q_here = q;
+            Lanes value[4], q_here = quads.q;
             for (int i = 0; i < 4; ++i) {
                 value[i] = (corner & 1) != 0 ? at[i] + gain_x[i] : at[i];
                 if ((corner & 2) != 0) value[i] = value[i] + gain_y[i];
             }
-            if ((corner & 1) != 0) q_here = q_here + q_x;
-            if ((corner & 2) != 0) q_here = q_here + q_y;
-            sound &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
-            Lanes const inverse = reciprocal(chosen(sound, value[3], one));
+            if ((corner & 1) != 0) q_here = q_here + quads.q_x;
+            if ((corner & 2) != 0) q_here = q_here + quads.q_y;
+            among &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
+            Lanes const inverse = reciprocal(chosen(among, value[3], one));
             Lanes const tx = value[0] * inverse, ty = value[1] * inverse, tz = value[2] * inverse;
-            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(sound, q_here, one));
+            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(among, q_here, one));
             seen.lo_x = corner == 0 ? tx : least(seen.lo_x, tx);
             seen.hi_x = corner == 0 ? tx : most(seen.hi_x, tx);
             seen.lo_y = corner == 0 ? ty : least(seen.lo_y, ty);
@@ -183,10 +201,9 @@ struct TileKernel {
             seen.hi_w = corner == 0 ? w : most(seen.hi_w, w);
             steepest = most(steepest, inverse);
         }
-        // What rounding may add, so that no triangle misses a texel.
         Lanes const ray = all(buffer.contact_ray);
-        Lanes const reach = flat ? all(buffer.contact_reach) + absolute(q) + absolute(q_x) + absolute(q_y) : ray;
-        Lanes const here = flat ? one : absolute(q) + absolute(q_x) + absolute(q_y);
+        Lanes const reach = flat ? all(buffer.contact_reach) + quads.size() : ray;
+        Lanes const here = flat ? one : quads.size();
         auto const error = [&](T each_metre, T anywhere) {
             return steepest * fused(reach, all(each_metre), here * all(anywhere));
         };
@@ -197,19 +214,35 @@ struct TileKernel {
         seen.hi_y = seen.hi_y + pad;
         seen.depth = seen.depth + error(buffer.depth_error, buffer.depth_error_here);
         Lanes const span = absolute(seen.lo_x) + absolute(seen.hi_x) + absolute(seen.lo_y) + absolute(seen.hi_y);
-        seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
+        seen.alive = among & at_least(all(std::numeric_limits<T>::max()), span + absolute(seen.depth));
+    }
 
+    void see(int tile, int column, int row, Seen& seen) const noexcept {
+        seen.alive = seen.away = 0;
+        Surface surface;
+        gather(column, row, surface);
+        Quads const quads = quads_of(surface, column, row);
+        if (quads.sound == 0) return;
+        std::uint32_t const lit = facing_light(quads);
+        seen.away = quads.sound & ~lit;
+        if ((quads.sound & lit) == 0) return;
+        cover(quads, quads.sound & lit, seen);
         keep_bounds(tile, seen);
-        T* const quads = buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
+        keep_quads(tile, quads, seen.alive);
+    }
+
+    void keep_quads(int tile, Quads const& quads, std::uint32_t alive) const noexcept {
+        Lanes const zero = Lanes::all(T(0)), one = Lanes::all(T(1));
+        T* const kept = buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
+        T const tile_q = kept[tile_q_at] = middle_of(alive, quads.q);
         // The division once more, without its rounding.
-        T const tile_q = quads[tile_q_at] = middle_of(seen.alive, q);
         T rest[lane_count];
-        (flat ? middle : chosen(seen.alive, depth, one)).store(rest);
+        (flat ? quads.middle : chosen(alive, quads.depth, one)).store(rest);
         for (T& r : rest) r = static_cast<T>((flat ? Wider<T>(r) : Wider<T>(1) / Wider<T>(r)) - Wider<T>(tile_q));
         Lanes const exact = Lanes::load(rest);
-        chosen(seen.alive, exact - to_corner, zero).store(quads);
-        chosen(seen.alive, q_x, zero).store(quads + lane_count);
-        chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
+        chosen(alive, exact - quads.to_corner, zero).store(kept);
+        chosen(alive, quads.q_x, zero).store(kept + lane_count);
+        chosen(alive, quads.q_y, zero).store(kept + 2 * lane_count);
     }
 
     void keep_bounds(int tile, Seen& seen) const noexcept {
