@@ -98,7 +98,9 @@ struct FrameConstants {
     float map_size = 1.0f;           // texels
     float specular = 0.15f;
     float specular_power = 24.0f;
-    std::int32_t first_map = 0;  // what the map maps[0] is called in Frame::position
+    std::int32_t split =
+        -1;  // the map, alone and as layer 0, that is there: what reads another is left out. map_count:
+             // what reads none is drawn; -1: all are there
     std::array<MapConstants, max_maps> maps{};
 };
 static_assert(sizeof(MapConstants) == 96 && sizeof(FrameConstants) == 64 + 7 * 16 + 2 * 16 + max_maps * 96,
@@ -188,9 +190,9 @@ public:
     virtual DrawWork draw_scene(ScenePass const& pass) = 0;
 
     // Both in turns, with memory for one map (Zhang, Sun, Nyman 2007, 10.3.1): each map is drawn over the last, and at
-    // once the receivers between the depth_end of the map before and its own, clipped there. It leaves the picture of
-    // draw_depth and draw_scene, but for pixels at the borders and those that blend, for no second map is there; and
-    // the last map, as layer 0. The maps are chosen by depth. The way of the pass is of no account.
+    // once the receivers between the depth_end of the map before and its own. It leaves the picture of draw_depth and
+    // draw_scene, but for pixels that blend, for no second map is there; and the last map, as layer 0. The maps are
+    // chosen by depth. The way of the pass is of no account.
     virtual DrawWork draw_split_by_split(DepthPass const& maps, ScenePass const& view) = 0;
 
     virtual DrawWork fit_maps(FitPass const& pass) = 0;  // the eye sees all objects

@@ -1499,6 +1499,15 @@ template <int a, int b, int c, int d, class T>
     return Lanes<T>::of(at(a), at(b), at(c), at(d));
 }
 
+// Place by place, brought from `lo` to `hi`, 0 < lo: by their bits, so that nothing is raised by what is no number.
+template <class T>
+[[nodiscard]] inline Lanes<T> between(Lanes<T> const& four, T lo, T hi) noexcept {
+    auto const brought = [lo, hi](T at) {
+        return order_of(at) < order_of(lo) ? lo : order_of(hi) < order_of(at) ? hi : at;
+    };
+    return Lanes<T>::of(brought(four[0]), brought(four[1]), brought(four[2]), brought(four[3]));
+}
+
 // Whether any of them is beyond reach (reach.hpp), for several at a time.
 template <class T>
 class BeyondReach {
@@ -1532,6 +1541,19 @@ template <int a, int b, int c, int d>
     return {__builtin_shufflevector(four.at, more.at, a, b, c, d)};
 }
 #endif
+
+template <>
+[[nodiscard]] inline Lanes<float> between(Lanes<float> const& four, float lo, float hi) noexcept {
+    using Bits [[gnu::vector_size(16)]] = std::int32_t;
+    Bits at;
+    std::memcpy(&at, &four, sizeof at);
+    Bits const least = Bits{} + order_of(lo), most = Bits{} + order_of(hi);
+    at = at < least ? least : at;
+    at = at > most ? most : at;
+    Lanes<float> made;
+    std::memcpy(&made, &at, sizeof at);
+    return made;
+}
 
 template <>
 class BeyondReach<float> {
@@ -2102,6 +2124,38 @@ template <class Long, class T>
         return first == 0 ? Long{__builtin_shufflevector(all, all, 0, 0, 0, 0, 5, 5, 5, 5)}
                           : Long{__builtin_shufflevector(all, all, 2, 2, 2, 2, 7, 7, 7, 7)};
     }
+#endif
+}
+
+// Fours one behind the other.
+template <class Long, class T>
+[[nodiscard]] inline Long joined(Lanes<T> const* four) noexcept {
+    if constexpr (Long::fours == 1) return four[0];
+#if defined(__AVX__)
+    if constexpr (Long::fours > 1) {
+        auto const a = __builtin_shufflevector(four[0].at, four[1].at, 0, 1, 2, 3, 4, 5, 6, 7);
+#if defined(__AVX512F__)
+        auto const b = __builtin_shufflevector(four[2].at, four[3].at, 0, 1, 2, 3, 4, 5, 6, 7);
+        return {__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)};
+#else
+        return {a};
+#endif
+    }
+#endif
+}
+
+// `four` in the last four places.
+template <class Long, class T>
+[[nodiscard]] inline Long with_last([[maybe_unused]] Long const& lanes, Lanes<T> const& four) noexcept {
+    if constexpr (Long::fours == 1) return four;
+#if defined(__AVX512F__)
+    if constexpr (Long::fours == 4) {
+        auto const all = repeated<Long>(four).at;
+        return {__builtin_shufflevector(lanes.at, all, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 28, 29, 30, 31)};
+    }
+#elif defined(__AVX__)
+    if constexpr (Long::fours == 2)
+        return {__builtin_shufflevector(lanes.at, repeated<Long>(four).at, 0, 1, 2, 3, 12, 13, 14, 15)};
 #endif
 }
 
@@ -2705,8 +2759,8 @@ template <class T>
 // The slices of thousands of views at once: what fit_slice_boxes gives for each, at a third of the cost. For simulators
 // and for tools that try many cameras under one sun.
 //
-// Eight views are eight lanes: what they have in common is done once for all of them, and each operation is one
-// instruction for all eight.
+// Views are lanes: what they have in common is done once for all of them, and each operation is one instruction for as
+// many as a register holds.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -2741,56 +2795,57 @@ struct SlicesOfViews {
         std::memcpy(rows[3] + first, &four[3], sizeof four[3]);
     }
 
-    // Rows: position, right, up, forward, sides; near and far. False where not all views are perspective.
-    [[gnu::always_inline]] bool gather(Row (&of_views)[18]) const noexcept {
+    // Rows: position, right, up, forward, sides; near and far; the roots of far / near, taken here, as processors move
+    // numbers meanwhile. False where not all views are perspective.
+    [[gnu::always_inline]] bool gather(Row (&in)[20]) const noexcept {
         bool perspective = true;
         for (int first = 0; first < n; first += 4) {
             ViewVolume<T> const &a = views[first], &b = views[first + 1], &c = views[first + 2], &d = views[first + 3];
             T const* pose[4] = {&a.pose.position.x, &b.pose.position.x, &c.pose.position.x, &d.pose.position.x};
-            gather({pose[0], pose[1], pose[2], pose[3]}, of_views, first);
-            gather({pose[0] + 4, pose[1] + 4, pose[2] + 4, pose[3] + 4}, of_views + 4, first);
-            gather({pose[0] + 8, pose[1] + 8, pose[2] + 8, pose[3] + 8}, of_views + 8, first);
-            gather({&a.left, &b.left, &c.left, &d.left}, of_views + 12, first);
+            gather({pose[0], pose[1], pose[2], pose[3]}, in, first);
+            gather({pose[0] + 4, pose[1] + 4, pose[2] + 4, pose[3] + 4}, in + 4, first);
+            gather({pose[0] + 8, pose[1] + 8, pose[2] + 8, pose[3] + 8}, in + 8, first);
+            gather({&a.left, &b.left, &c.left, &d.left}, in + 12, first);
             Lanes<T> const z_near = Lanes<T>::of(a.z_near, b.z_near, c.z_near, d.z_near);
             Lanes<T> const z_far = Lanes<T>::of(a.z_far, b.z_far, c.z_far, d.z_far);
-            std::memcpy(of_views[16] + first, &z_near, sizeof z_near);
-            std::memcpy(of_views[17] + first, &z_far, sizeof z_far);
+            auto const metres = [](Lanes<T> const& z) { return between(z, least_metres<T>, farthest_metres<T>); };
+            Lanes<T> const half = root(metres(z_far) / metres(z_near)), quarter = root(half);
+            std::memcpy(in[16] + first, &z_near, sizeof z_near);
+            std::memcpy(in[17] + first, &z_far, sizeof z_far);
+            std::memcpy(in[18] + first, &half, sizeof half);
+            std::memcpy(in[19] + first, &quarter, sizeof quarter);
             perspective = perspective & (a.kind == ViewKind::perspective) & (b.kind == ViewKind::perspective) &
                           (c.kind == ViewKind::perspective) & (d.kind == ViewKind::perspective);
         }
         return perspective;
     }
 
-    [[gnu::always_inline]] static bool in_reach(Row const (&of_views)[18]) noexcept {
+    // Of each view, sums of coordinates regardless of sign, by which roundings are measured.
+    struct Lengths {
+        Row eye, sides;
+    };
+
+    // False where a number is beyond reach, or a little sooner: where sums of them are.
+    [[gnu::always_inline]] static bool measure(Row const (&in)[20], Lengths& of) noexcept {
         decltype(beyond_reach(T(0))) any = 0;
-        for (int row = 0; row < 16; ++row) {
-            Row const& of = of_views[row];
-            for (int i = 0; i < n; ++i) any |= beyond_reach(std::abs(of[i]));
+        for (int i = 0; i < n; ++i) {
+            of.eye[i] = std::abs(in[0][i]) + std::abs(in[1][i]) + std::abs(in[2][i]);
+            of.sides[i] = std::abs(in[12][i]) + std::abs(in[13][i]) + std::abs(in[14][i]) + std::abs(in[15][i]);
         }
-        for (int i = 0; i < n; ++i)
-            any |= beyond(of_views[16][i], least_metres<T>, farthest_metres<T>) |
-                   beyond(of_views[17][i], least_metres<T>, farthest_metres<T>);
+        for (int i = 0; i < n; ++i) {
+            T const right = std::abs(in[3][i]) + std::abs(in[4][i]) + std::abs(in[5][i]);
+            T const up = std::abs(in[6][i]) + std::abs(in[7][i]) + std::abs(in[8][i]);
+            T const ahead = std::abs(in[9][i]) + std::abs(in[10][i]) + std::abs(in[11][i]);
+            any |= beyond_reach(of.eye[i] + of.sides[i] + (right + up + ahead)) |
+                   beyond(in[16][i], least_metres<T>, farthest_metres<T>) |
+                   beyond(in[17][i], least_metres<T>, farthest_metres<T>);
+        }
         return any >> (8 * sizeof any - 1) == 0;
     }
 
-    [[gnu::always_inline]] static void roots_of(Row const& of, Row& roots) noexcept {
-        for (int first = 0; first < n; first += 4) {
-            Lanes<T> const four = root(four_at(of + first));
-            std::memcpy(roots + first, &four, sizeof four);
-        }
-    }
-
-    [[gnu::always_inline]] void operator()() const noexcept {
-        Row in[18];
-        ordinary = gather(in) && in_reach(in);
-        if (!ordinary) return;
-
-        Row plane[5], ratio, half, quarter, slope;
-        for (int i = 0; i < n; ++i) ratio[i] = in[17][i] / in[16][i];
-        roots_of(ratio, half);
-        roots_of(half, quarter);
-        std::uint32_t good[n];
-        constexpr T unit = T(8) * std::numeric_limits<T>::epsilon();
+    // False where the planes of a view are not in order, or its sides.
+    [[gnu::always_inline]] bool split(Row const (&in)[20], Row (&plane)[5]) const noexcept {
+        Row const &half = in[18], &quarter = in[19];
         for (int i = 0; i < n; ++i) {
             T const near_end = in[16][i], far_end = in[17][i], length = far_end - near_end, rest = T(1) - lambda;
             plane[0][i] = near_end;
@@ -2798,69 +2853,101 @@ struct SlicesOfViews {
             plane[2][i] = lambda * (near_end * half[i]) + rest * (near_end + length * T(0.5));
             plane[3][i] = lambda * (near_end * (half[i] * quarter[i])) + rest * (near_end + length * T(0.75));
             plane[4][i] = far_end;
-            slope[i] =
-                unit * (T(1) + (std::abs(in[12][i]) + std::abs(in[13][i]) + std::abs(in[14][i]) + std::abs(in[15][i])));
         }
+        std::uint32_t good[n], all_good = ~0u;
         for (int i = 0; i < n; ++i)
             good[i] = ((plane[0][i] < plane[1][i]) & (plane[1][i] < plane[2][i]) & (plane[2][i] < plane[3][i]) &
                        (plane[3][i] < plane[4][i]) & (in[12][i] < in[13][i]) & (in[14][i] < in[15][i]) &
                        (in[16][i] > in[17][i] * T(0x1p-64)))
                           ? ~0u
                           : 0u;
-        std::uint32_t all_good = ~0u;
         for (int i = 0; i < n; ++i) all_good &= good[i];
-        ordinary = all_good != 0;
-        if (!ordinary) return;
+        return all_good != 0;
+    }
 
-        Row eye_lo[3], eye_hi[3], slope_lo[3], slope_hi[3];
-        for (int axis = 0; axis < 3; ++axis) {
-            Vec3<T> const a = axis == 0 ? basis.x : (axis == 1 ? basis.y : basis.depth);
-            Row &e0 = eye_lo[axis], &e1 = eye_hi[axis], &s0 = slope_lo[axis], &s1 = slope_hi[axis];
-            for (int i = 0; i < n; ++i) {
-                T const eye = a.x * in[0][i] + a.y * in[1][i] + a.z * in[2][i];
-                T const right = a.x * in[3][i] + a.y * in[4][i] + a.z * in[5][i];
-                T const up = a.x * in[6][i] + a.y * in[7][i] + a.z * in[8][i];
-                T const ahead = a.x * in[9][i] + a.y * in[10][i] + a.z * in[11][i];
-                T const b = right * in[12][i], c = right * in[13][i], d = up * in[14][i], e = up * in[15][i];
-                T const rounding = unit * (std::abs(in[0][i]) + std::abs(in[1][i]) + std::abs(in[2][i]));
-                e0[i] = eye - rounding;
-                e1[i] = eye + rounding;
-                s0[i] = ahead + (less(b, c) + less(d, e));
-                s1[i] = ahead + (more(b, c) + more(d, e));
+    // What the maps of all slices do to one axis of the light.
+    struct OnAxis {
+        Row scale[4], offset[4];
+    };
+
+    // `axis`, and so all that it is multiplied with, is halved, which is exact: the middle of two is then their sum.
+    [[gnu::always_inline]] static void fit(Row const (&in)[20], Lengths const& of, Row const (&plane)[5],
+                                           Vec3<T> const& axis, T extent, T middle, OnAxis& maps) noexcept {
+        constexpr T half_unit = T(4) * std::numeric_limits<T>::epsilon();
+        Vec3<T> const a = axis * T(0.5);
+        Row eye_lo, eye_hi, slope_lo, slope_hi;
+        for (int i = 0; i < n; ++i) {
+            T const eye = a.x * in[0][i] + a.y * in[1][i] + a.z * in[2][i];
+            T const right = a.x * in[3][i] + a.y * in[4][i] + a.z * in[5][i];
+            T const up = a.x * in[6][i] + a.y * in[7][i] + a.z * in[8][i];
+            T const ahead = a.x * in[9][i] + a.y * in[10][i] + a.z * in[11][i];
+            T const b = right * in[12][i], c = right * in[13][i], d = up * in[14][i], e = up * in[15][i];
+            T const rounding = half_unit * of.eye[i];
+            eye_lo[i] = eye - rounding, slope_lo[i] = ahead + (less(b, c) + less(d, e));
+            eye_hi[i] = eye + rounding, slope_hi[i] = ahead + (more(b, c) + more(d, e));
+        }
+        for (int i = 0; i < n; ++i) {
+            T const growth = half_unit * (T(1) + of.sides[i]);
+            T from_lo = plane[0][i] * slope_lo[i], from_hi = plane[0][i] * slope_hi[i];
+            auto const add = [&](int slice) {
+                T const to = plane[slice + 1][i], to_lo = to * slope_lo[i], to_hi = to * slope_hi[i];
+                T const lo = eye_lo[i] + (less(from_lo, to_lo) - to * growth);
+                T const hi = eye_hi[i] + (more(from_hi, to_hi) + to * growth);
+                T const scale = extent * T(0.5) / (hi - lo);
+                maps.scale[slice][i] = scale;
+                maps.offset[slice][i] = middle - (lo + hi) * scale;
+                from_lo = to_lo, from_hi = to_hi;
+            };
+            add(0), add(1), add(2), add(3);
+        }
+    }
+
+    // As write_columns, in as few stores as the machine has. Of a few maps they would gain nothing: most of them reach
+    // across a cache line.
+    [[gnu::always_inline]] static void write_whole(ViewInLight<T> const& seen, Lanes<T> const& scale,
+                                                   Lanes<T> const& offset, Mat4<T>& clip_from_world) noexcept {
+        using Long = LongLanes<T>;
+        if constexpr (Long::fours == 1) {
+            write_columns(seen, scale, offset, clip_from_world);
+        } else {
+            Lanes<T> const column[4] = {seen.x, seen.y, seen.z, offset};
+            Long const scales = repeated<Long>(scale);
+            for (int i = 0; i < 4; i += Long::fours) {
+                Long const scaled = joined<Long>(column + i) * scales;
+                store_long(&clip_from_world[0].x + 4 * i, i + Long::fours < 4 ? scaled : with_last(scaled, offset));
             }
         }
+    }
+
+    [[gnu::always_inline]] void operator()() const noexcept {
+        Row in[20], plane[5];
+        Lengths of;
+        ordinary = gather(in) && measure(in, of) && split(in, plane);
+        if (!ordinary) return;
+
+        OnAxis x, y, depth;
+        fit(in, of, plane, basis.x, map.extent[0], map.middle[0], x);
+        fit(in, of, plane, basis.y, map.extent[1], map.middle[1], y);
+        fit(in, of, plane, basis.depth, map.extent[2], map.middle[2], depth);
+
         ViewInLight<T> columns;
         columns.x = Lanes<T>::of(basis.x.x, basis.y.x, basis.depth.x, T(0));
         columns.y = Lanes<T>::of(basis.x.y, basis.y.y, basis.depth.y, T(0));
         columns.z = Lanes<T>::of(basis.x.z, basis.y.z, basis.depth.z, T(0));
-        for (int slice = 0; slice < 4; ++slice) {
-            Row scale[3], offset[3];
-            Row const &from = plane[slice], &to = plane[slice + 1];
-            for (int axis = 0; axis < 3; ++axis) {
-                T const extent = map.extent[axis], middle = map.middle[axis];
-                Row const &e0 = eye_lo[axis], &e1 = eye_hi[axis], &s0 = slope_lo[axis], &s1 = slope_hi[axis];
-                Row &wide = scale[axis], &moved = offset[axis];
-                for (int i = 0; i < n; ++i) {
-                    T const rounding = to[i] * slope[i];
-                    T const lo = e0[i] + (less(from[i] * s0[i], to[i] * s0[i]) - rounding);
-                    T const hi = e1[i] + (more(from[i] * s1[i], to[i] * s1[i]) + rounding);
-                    T const of_map = extent / (hi - lo);
-                    wide[i] = of_map;
-                    moved[i] = middle - (lo + hi) * T(0.5) * of_map;
-                }
-            }
-            for (int first = 0; first < n; first += 4) {
-                Lanes<T> of_four[4] = {four_at(scale[0] + first), four_at(scale[1] + first), four_at(scale[2] + first),
-                                       all_four(T(0))};
-                Lanes<T> moved[4] = {four_at(offset[0] + first), four_at(offset[1] + first), four_at(offset[2] + first),
-                                     all_four(T(1))};
-                transpose(of_four);
-                transpose(moved);
-                Mat4<T>* const maps = clip_from_world + 4 * first + slice;
-                write_columns(columns, of_four[0], moved[0], maps[0]);
-                write_columns(columns, of_four[1], moved[1], maps[4]);
-                write_columns(columns, of_four[2], moved[2], maps[8]);
-                write_columns(columns, of_four[3], moved[3], maps[12]);
+        Mat4<T>* to = clip_from_world;
+        for (int first = 0; first < n; first += 4, to += 16) {
+            for (int slice = 0; slice < 4; ++slice) {
+                auto const four = [first, slice](Row const(&of_slices)[4]) {
+                    return four_at(of_slices[slice] + first);
+                };
+                Lanes<T> scale[4] = {four(x.scale), four(y.scale), four(depth.scale), all_four(T(0))};
+                Lanes<T> offset[4] = {four(x.offset), four(y.offset), four(depth.offset), all_four(T(1))};
+                transpose(scale);
+                transpose(offset);
+                write_whole(columns, scale[0], offset[0], to[slice]);
+                write_whole(columns, scale[1], offset[1], to[slice + 4]);
+                write_whole(columns, scale[2], offset[2], to[slice + 8]);
+                write_whole(columns, scale[3], offset[3], to[slice + 12]);
             }
         }
     }
@@ -3270,7 +3357,8 @@ template <class T>
     for (unsigned i = 0; i < 8; ++i) {
         if (!all_finite(corners[i])) return {};
         T const reach = glm::max(std::abs(corners[i].x), glm::max(std::abs(corners[i].y), std::abs(corners[i].z)));
-        share[i] = reach > ordinary ? T(1) / reach : T(1);
+        // No farther down than that: 1 / FLT_MAX is no normal number.
+        share[i] = reach > ordinary ? ordinary / reach : T(1);
         point[i] = clip * Vec4<T>(corners[i] * share[i], share[i]);
         largest_w = glm::max(largest_w, point[i].w);
     }
@@ -3529,48 +3617,63 @@ struct BoundsOfBoxes {
         bounds = merge(bounds, so_far.merged());
     }
 
+    // Points of one box, four at a time: least and largest NDC of those that count, which have nothing lacking.
+    struct BoundsInLanes {
+        using Four = Lanes<T>;
+        Four lo[3] = {Four::all(none), Four::all(none), Four::all(none)};
+        Four hi[3] = {Four::all(-none), Four::all(-none), Four::all(-none)};
+        static constexpr T none = std::numeric_limits<T>::max();
+
+        [[gnu::always_inline]] void add(Four const (&point)[3], Four const& per_w, Four const& lacking) noexcept {
+            Four const zero = Four::all(T(0));
+            for (int r = 0; r < 3; ++r) {
+                Four const ndc = point[r] * per_w;
+                lo[r] = least(where_at_most(lacking, zero, ndc, Four::all(none)), lo[r]);
+                hi[r] = largest(where_at_most(lacking, zero, ndc, Four::all(-none)), hi[r]);
+            }
+        }
+    };
+
     // A box in reach that is partly at w < w_min: its corners in front of that, and where its edges pass through it.
-    void add_astride(BoxArrays<T> const& at, int i) const noexcept {
-        T corner[4][8], above[8];
+    [[gnu::always_inline]] void add_astride(BoxArrays<T> const& at, int i) const noexcept {
+        using Four = Lanes<T>;
+        Four const zero = Four::all(T(0)), one = Four::all(T(1)), least_w = Four::all(w_min);
+        Four lower[4], upper[4];  // rows of the corners at either end of z: x grows first, then y
         for (int r = 0; r < 4; ++r) {
             EndProducts<T> const p(row(matrix, r), at, i);
-            T const xy[4] = {p.x0 + p.y0, p.x1 + p.y0, p.x0 + p.y1, p.x1 + p.y1};
-            for (int k = 0; k < 4; ++k) corner[r][k] = xy[k] + p.z0, corner[r][k + 4] = xy[k] + p.z1;
+            Four const xy = Four::of(p.x0, p.x1, p.x0, p.x1) + Four::of(p.y0, p.y0, p.y1, p.y1);
+            lower[r] = xy + Four::all(p.z0), upper[r] = xy + Four::all(p.z1);
         }
-        constexpr T largest = std::numeric_limits<T>::max();
-        T lo[3] = {largest, largest, largest}, hi[3] = {-largest, -largest, -largest};
-        auto const add = [&](T x, T y, T z, T per_w) {
-            T const ndc[3] = {x * per_w, y * per_w, z * per_w};
-            for (int r = 0; r < 3; ++r) {
-                lo[r] = ndc[r] < lo[r] ? ndc[r] : lo[r];
-                hi[r] = ndc[r] > hi[r] ? ndc[r] : hi[r];
-            }
+        BoundsInLanes in_lanes;
+        auto const add_corners = [&](Four const(&corner)[4]) {
+            in_lanes.add({corner[0], corner[1], corner[2]}, one / largest(corner[3], least_w),
+                         where_at_most(least_w, corner[3], zero, one));
         };
-        unsigned front = 0;
-        for (int k = 0; k < 8; ++k) {
-            above[k] = corner[3][k] - w_min;
-            front |= above[k] >= T(0) ? 1u << k : 0u;
+        add_corners(lower), add_corners(upper);
+        auto const add_edges = [&](Four const(&from)[4], Four const(&to)[4]) {
+            Four const above = from[3] - least_w, other = to[3] - least_w;
+            Four const none_behind = where_at_most(zero, least(above, other), one, zero);
+            Four const lacking = where_at_most(zero, largest(above, other), none_behind, one);
+            // Of an edge that does not pass through: its beginning.
+            Four const t = where_at_most(lacking, zero, above, zero) / where_at_most(lacking, zero, above - other, one),
+                       rest = one - t;
+            in_lanes.add({from[0] * rest + to[0] * t, from[1] * rest + to[1] * t, from[2] * rest + to[2] * t},
+                         one / least_w, lacking);
+        };
+        Four x_from[4], x_to[4], y_from[4], y_to[4];
+        for (int r = 0; r < 4; ++r) {
+            x_from[r] = picked<0, 2, 4, 6>(lower[r], upper[r]), x_to[r] = picked<1, 3, 5, 7>(lower[r], upper[r]);
+            y_from[r] = picked<0, 1, 4, 5>(lower[r], upper[r]), y_to[r] = picked<2, 3, 6, 7>(lower[r], upper[r]);
         }
-        for (int k = 0; k < 8; ++k)
-            if ((front >> k & 1u) != 0) add(corner[0][k], corner[1][k], corner[2][k], T(1) / corner[3][k]);
-        T const per_w = T(1) / w_min;
-        constexpr unsigned lower_ends[3] = {0x55, 0x33, 0x0f};
-        for (int axis = 0; axis < 3; ++axis) {
-            unsigned const through = (front ^ front >> (1 << axis)) & lower_ends[axis];
-            for (int k = 0; k < 8; ++k) {
-                if ((through >> k & 1u) == 0) continue;
-                int const j = k | 1 << axis;
-                T const t = above[k] / (above[k] - above[j]), rest = T(1) - t;
-                add(corner[0][k] * rest + corner[0][j] * t, corner[1][k] * rest + corner[1][j] * t,
-                    corner[2][k] * rest + corner[2][j] * t, per_w);
-            }
-        }
+        add_edges(x_from, x_to), add_edges(y_from, y_to), add_edges(lower, upper);
         // Numbers that are too large for the type are the largest.
-        for (int r = 0; r < 3; ++r) {
-            T const least = lo[r] < -largest ? -largest : lo[r], most = hi[r] > largest ? largest : hi[r];
-            bounds.lo[r] = least < bounds.lo[r] ? least : bounds.lo[r];
-            bounds.hi[r] = most > bounds.hi[r] ? most : bounds.hi[r];
-        }
+        constexpr T largest_number = std::numeric_limits<T>::max();
+        for (int r = 0; r < 3; ++r)
+            for (int k = 0; k < 4; ++k) {
+                T const lo = in_lanes.lo[r][k], hi = in_lanes.hi[r][k];
+                bounds.lo[r] = BoundsInBlocks<T>::less(BoundsInBlocks<T>::more(lo, -largest_number), bounds.lo[r]);
+                bounds.hi[r] = BoundsInBlocks<T>::more(BoundsInBlocks<T>::less(hi, largest_number), bounds.hi[r]);
+            }
     }
 
     // Whatever they are.
@@ -4559,7 +4662,8 @@ struct Extent {
     }
 };
 
-// The casters in the shaft of light that the map sees, from the light down to `last`.
+// The casters in the shaft of light that the map sees, from the light down to `last`. Its sides stand out by what the
+// farthest caster is rounded by, or one far above a narrow map would seem to lie beside it.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> casters_in(MapRows<T> const& rows, Vec3<T> const& eye, Aabb<T> const& casters,
                                               T reach_metres, T last) noexcept {
@@ -4570,8 +4674,10 @@ template <class T>
     Vec4<T> const one(T(0), T(0), T(0), T(1));
     if (!rows.parallel) shaft = clipped(shaft, rows.along - one * rows.along_floor);
     shaft = clipped(shaft, one * last - rows.along);
+    T const farthest = glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))) + glm::length(eye);
+    T const rounding = T(64) * std::numeric_limits<T>::epsilon() * farthest;
     for (Vec4<T> const& side : {rows.w - rows.x, rows.w + rows.x, rows.w - rows.y, rows.w + rows.y})
-        shaft = clipped(shaft, side);
+        shaft = clipped(shaft, side + one * (rounding * glm::length(Vec3<T>(side))));
     return clipped(shaft, rows.parallel ? rows.w - one * rows.w_min : rows.w);
 }
 
@@ -5483,10 +5589,10 @@ template <class T>
     axes.fade = t * t * (T(3) - T(2) * t);
     axes.basis = light_basis(travel);
     // Up in the picture weighs no more than the view does where the fade begins: so the two cancel only below.
-    Normalized<T> const rough = safe_normalize(view + across(eye.up) * (none * (T(1) - axes.fade)));
+    Vec3<T> const rough = safe_normalize(view + across(eye.up) * (none * (T(1) - axes.fade))).direction;
     // Across the light once more: what rounding left along it has grown with the normalisation.
-    Normalized<T> const y = safe_normalize(across(rough.direction));
-    if (!rough.ok || !y.ok) return axes;
+    Normalized<T> const y = safe_normalize(across(rough));
+    if (!y.ok) return axes;
     axes.basis.y = y.direction;
     axes.basis.x = glm::cross(travel, y.direction);
     return axes;
@@ -7621,7 +7727,7 @@ template <class T>
     // Over the largest of them, the product of two gains neither under- nor overflows.
     T largest = T(0);
     for (T const gain : {s.x, s.y, t.x, t.y}) largest = std::abs(gain) > largest ? std::abs(gain) : largest;
-    if (!(largest > T(0)) || !all_finite(&largest, 1) || !all_finite(s) || !all_finite(t)) return {};
+    if (!(largest > T(0)) || !all_finite(s) || !all_finite(t)) return {};
     s = s / largest;
     t = t / largest;
     T const area = (s.x * t.y - s.y * t.x) * T(map_size);
@@ -8701,8 +8807,9 @@ inline void add(Supports<T>& supports, LightSample<T> const& sample) noexcept {
 template <class T>
 [[nodiscard]] inline Quad<T> quad_at(Supports<T> const& supports, std::array<int, 4> const& direction) noexcept {
     QuadSides<T> sides;
+    static_assert((quad_directions & (quad_directions - 1)) == 0, "whole turns must not matter below zero");
     for (unsigned k = 0; k < 4; ++k) {
-        auto const i = static_cast<unsigned>(direction[k] + 4 * quad_directions) % unsigned(quad_directions);
+        auto const i = static_cast<unsigned>(direction[k]) % unsigned(quad_directions);
         // Coordinates of the frame are about 1 at the samples' ends.
         T const reach = supports.reach[i], slack = T(1e-4) * std::fmax(T(1), std::abs(reach));
         sides[k] = Vec3<T>(-supports.direction[i], reach + slack);
@@ -13027,72 +13134,90 @@ struct TileKernel {
         return inside;
     }
 
-    void see(int tile, int column, int row, Seen& seen) const noexcept {
+    // The quads of sixteen pixels (micro_quad, of which these are the lanes): q + q_x x + q_y y at the corner of a
+    // pixel, which is one over the depth, or the depth itself where the eye is flat.
+    struct Quads {
+        Lanes x, y;  // of the lower corners, pixels from the middle of the picture
+        Lanes normal_x, normal_y, normal_z;
+        Lanes toward_middle, facing, depth;
+        Lanes middle, to_corner, q, q_x, q_y;
+        std::uint32_t sound;  // numbers, in the picture
+
+        [[nodiscard]] Lanes size() const noexcept { return absolute(q) + absolute(q_x) + absolute(q_y); }
+    };
+    [[nodiscard]] Quads quads_of(Surface const& surface, int column, int row) const noexcept {
         PixelFrame<T> const& frame = buffer.frame;
         auto const all = [](T value) { return Lanes::all(value); };
-        Surface surface;
-        gather(column, row, surface);
         Lanes const zero = all(T(0)), one = all(T(1)), half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min());
-        Lanes const x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
-        Lanes const y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
-        Lanes const(&m)[3] = surface.normal;
+        Quads quads;
+        quads.x = all(T(column) - T(frame.width) / T(2)) + column_in_tile;
+        quads.y = all(T(row) - T(frame.height) / T(2)) + row_in_tile;
         auto const dot = [&all](Vec3<T> const& v, Lanes const(&a)[3]) {
             return fused(all(v.x), a[0], fused(all(v.y), a[1], all(v.z) * a[2]));
         };
-        Lanes const depth = receivers.position != nullptr ? dot(frame.to_inward, surface.place) : surface.place[0];
-        Lanes const nx = dot(frame.across, m), ny = dot(frame.upward, m), nz = dot(frame.inward, m);
-
-        // The quad; see micro_quad, of which these are the lanes.
-        Lanes const toward_middle = flat ? nz : fused(nx, x + half, fused(ny, y + half, nz));
-        Lanes const facing = flat ? zero - nz : toward_middle;
+        Lanes const depth = quads.depth =
+            receivers.position != nullptr ? dot(frame.to_inward, surface.place) : surface.place[0];
+        Lanes const nx = quads.normal_x = dot(frame.across, surface.normal);
+        Lanes const ny = quads.normal_y = dot(frame.upward, surface.normal);
+        Lanes const nz = quads.normal_z = dot(frame.inward, surface.normal);
+        quads.toward_middle = flat ? nz : fused(nx, quads.x + half, fused(ny, quads.y + half, nz));
+        Lanes const facing = quads.facing = flat ? zero - nz : quads.toward_middle;
         Lanes const steep = (absolute(nx) + absolute(ny)) * all(turn);
         Lanes const divisor = with_sign_of(most(absolute(facing), steep), facing);
         // A comparison with NaN is false.
-        Lanes const largest_number = all(std::numeric_limits<T>::max());
         std::uint32_t sound = at_least(absolute(divisor), tiny);
         if (!flat) sound &= at_least(depth, tiny);
         Lanes const scale = one / chosen(sound, flat ? divisor : divisor * depth, one);
-        Lanes const q_x = nx * scale, q_y = ny * scale;
-        Lanes const middle = flat ? depth : divisor * scale, to_corner = (q_x + q_y) * half;
-        Lanes const q = middle - to_corner;
-        sound &= at_least(largest_number, absolute(q) + absolute(q_x) + absolute(q_y));
+        quads.q_x = nx * scale, quads.q_y = ny * scale;
+        quads.middle = flat ? depth : divisor * scale, quads.to_corner = (quads.q_x + quads.q_y) * half;
+        quads.q = quads.middle - quads.to_corner;
+        sound &= at_least(all(std::numeric_limits<T>::max()), quads.size());
         sound &= lanes_inside(buffer.rect.x + buffer.rect.width - column, buffer.rect.y + buffer.rect.height - row);
-        seen.alive = seen.away = 0;
-        if (sound == 0) return;
+        quads.sound = sound;
+        return quads;
+    }
 
-        // Light and eye on the same side?
+    // Those whose surface has light and eye on the same side.
+    [[nodiscard]] std::uint32_t facing_light(Quads const& quads) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        Lanes const half = all(T(0.5)), tiny = all(std::numeric_limits<T>::min()), under = all(T(0)) - tiny;
+        Lanes const &nx = quads.normal_x, &ny = quads.normal_y, &nz = quads.normal_z;
         Lanes travel =
             fused(nx, all(buffer.light.at.x), fused(ny, all(buffer.light.at.y), nz * all(buffer.light.at.z)));
         if (!buffer.light.parallel)
-            travel = (flat ? fused(nx, x + half, fused(ny, y + half, nz * depth)) : depth * facing) - travel;
-        Lanes const under = zero - tiny;
-        std::uint32_t const lit = (at_least(travel, tiny) & at_least(toward_middle, tiny)) |
-                                  (at_least(under, travel) & at_least(under, toward_middle));
-        seen.away = sound & ~lit;
-        sound &= lit;
-        if (sound == 0) return;
+            travel = (flat ? fused(nx, quads.x + half, fused(ny, quads.y + half, nz * quads.depth))
+                           : quads.depth * quads.facing) -
+                     travel;
+        return (at_least(travel, tiny) & at_least(quads.toward_middle, tiny)) |
+               (at_least(under, travel) & at_least(under, quads.toward_middle));
+    }
 
-        // The four corners as the light sees them. Before an eye of perspective, values are over the depth.
+    // What the four corners of each quad cover as the light sees them, and more by what rounding may add, so that no
+    // triangle misses a texel. Those of `among` of which that can be said are alive.
+    void cover(Quads const& quads, std::uint32_t among, Seen& seen) const noexcept {
+        auto const all = [](T value) { return Lanes::all(value); };
+        Lanes const one = all(T(1)), tiny = all(std::numeric_limits<T>::min());
+        // Before an eye of perspective, values are over the depth.
         Lanes at[4], gain_x[4], gain_y[4];
         for (int i = 0; i < 4; ++i) {
             PixelPlane<T> const& p = plane[i];
-            at[i] = fused(all(p.x), x, fused(all(p.y), y, fused(all(p.b), q, all(p.a))));
-            gain_x[i] = fused(all(p.b), q_x, all(p.x));
-            gain_y[i] = fused(all(p.b), q_y, all(p.y));
+            at[i] = fused(all(p.x), quads.x, fused(all(p.y), quads.y, fused(all(p.b), quads.q, all(p.a))));
+            gain_x[i] = fused(all(p.b), quads.q_x, all(p.x));
+            gain_y[i] = fused(all(p.b), quads.q_y, all(p.y));
         }
-        Lanes steepest = zero;
+        Lanes steepest = all(T(0));
         for (int corner = 0; corner < 4; ++corner) {
-            Lanes value[4], q_here = q;
+            Lanes value[4], q_here = quads.q;
             for (int i = 0; i < 4; ++i) {
                 value[i] = (corner & 1) != 0 ? at[i] + gain_x[i] : at[i];
                 if ((corner & 2) != 0) value[i] = value[i] + gain_y[i];
             }
-            if ((corner & 1) != 0) q_here = q_here + q_x;
-            if ((corner & 2) != 0) q_here = q_here + q_y;
-            sound &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
-            Lanes const inverse = reciprocal(chosen(sound, value[3], one));
+            if ((corner & 1) != 0) q_here = q_here + quads.q_x;
+            if ((corner & 2) != 0) q_here = q_here + quads.q_y;
+            among &= at_least(value[3], tiny) & ~at_least(flat ? all(w_min) : all(w_min) * q_here, value[3]);
+            Lanes const inverse = reciprocal(chosen(among, value[3], one));
             Lanes const tx = value[0] * inverse, ty = value[1] * inverse, tz = value[2] * inverse;
-            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(sound, q_here, one));
+            Lanes const w = affine ? one : flat ? value[3] : value[3] * reciprocal(chosen(among, q_here, one));
             seen.lo_x = corner == 0 ? tx : least(seen.lo_x, tx);
             seen.hi_x = corner == 0 ? tx : most(seen.hi_x, tx);
             seen.lo_y = corner == 0 ? ty : least(seen.lo_y, ty);
@@ -13102,10 +13227,9 @@ struct TileKernel {
             seen.hi_w = corner == 0 ? w : most(seen.hi_w, w);
             steepest = most(steepest, inverse);
         }
-        // What rounding may add, so that no triangle misses a texel.
         Lanes const ray = all(buffer.contact_ray);
-        Lanes const reach = flat ? all(buffer.contact_reach) + absolute(q) + absolute(q_x) + absolute(q_y) : ray;
-        Lanes const here = flat ? one : absolute(q) + absolute(q_x) + absolute(q_y);
+        Lanes const reach = flat ? all(buffer.contact_reach) + quads.size() : ray;
+        Lanes const here = flat ? one : quads.size();
         auto const error = [&](T each_metre, T anywhere) {
             return steepest * fused(reach, all(each_metre), here * all(anywhere));
         };
@@ -13116,19 +13240,35 @@ struct TileKernel {
         seen.hi_y = seen.hi_y + pad;
         seen.depth = seen.depth + error(buffer.depth_error, buffer.depth_error_here);
         Lanes const span = absolute(seen.lo_x) + absolute(seen.hi_x) + absolute(seen.lo_y) + absolute(seen.hi_y);
-        seen.alive = sound & at_least(largest_number, span + absolute(seen.depth));
+        seen.alive = among & at_least(all(std::numeric_limits<T>::max()), span + absolute(seen.depth));
+    }
 
+    void see(int tile, int column, int row, Seen& seen) const noexcept {
+        seen.alive = seen.away = 0;
+        Surface surface;
+        gather(column, row, surface);
+        Quads const quads = quads_of(surface, column, row);
+        if (quads.sound == 0) return;
+        std::uint32_t const lit = facing_light(quads);
+        seen.away = quads.sound & ~lit;
+        if ((quads.sound & lit) == 0) return;
+        cover(quads, quads.sound & lit, seen);
         keep_bounds(tile, seen);
-        T* const quads = buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
+        keep_quads(tile, quads, seen.alive);
+    }
+
+    void keep_quads(int tile, Quads const& quads, std::uint32_t alive) const noexcept {
+        Lanes const zero = Lanes::all(T(0)), one = Lanes::all(T(1));
+        T* const kept = buffer.surface + tile_scalars * static_cast<std::size_t>(tile);
+        T const tile_q = kept[tile_q_at] = middle_of(alive, quads.q);
         // The division once more, without its rounding.
-        T const tile_q = quads[tile_q_at] = middle_of(seen.alive, q);
         T rest[lane_count];
-        (flat ? middle : chosen(seen.alive, depth, one)).store(rest);
+        (flat ? quads.middle : chosen(alive, quads.depth, one)).store(rest);
         for (T& r : rest) r = static_cast<T>((flat ? Wider<T>(r) : Wider<T>(1) / Wider<T>(r)) - Wider<T>(tile_q));
         Lanes const exact = Lanes::load(rest);
-        chosen(seen.alive, exact - to_corner, zero).store(quads);
-        chosen(seen.alive, q_x, zero).store(quads + lane_count);
-        chosen(seen.alive, q_y, zero).store(quads + 2 * lane_count);
+        chosen(alive, exact - quads.to_corner, zero).store(kept);
+        chosen(alive, quads.q_x, zero).store(kept + lane_count);
+        chosen(alive, quads.q_y, zero).store(kept + 2 * lane_count);
     }
 
     void keep_bounds(int tile, Seen& seen) const noexcept {
@@ -14160,7 +14300,9 @@ inline void trace(IrregularBuffer<T>& buffer, Casters<T> const& casters, std::ui
     if (count == 0 || count > left) count = left;
     // All along a ray of a sun w is that of the receiver; toward a lamp it falls to 0.
     T const slack = buffer.light.parallel ? T(0.999) : T(1) / T(1 << 20);
-    T const w_floor = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w);
+    T const wanted = slack * (buffer.light.parallel ? buffer.least_w : buffer.most_w),
+            least = std::numeric_limits<T>::min();
+    T const w_floor = wanted > least ? wanted : least;  // what is clipped is divided by it
     PixelFrame<Wider<T>> const frame = frame_in<Wider<T>>(buffer.frame);
     detail::TraceKernel<Lanes> const kernel{
         buffer, {buffer, casters, frame, pixel_light(frame, buffer.source), w_floor}, {buffer, frame}};

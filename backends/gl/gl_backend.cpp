@@ -330,9 +330,7 @@ private:
 
     void draw_view(ViewDraw const& view, std::size_t index) const {
         bind_constants<FrameBlock>(Constants::offset_of_frame(index));
-        gl_->DepthRange(double(view.z_begin), double(view.z_end));
         draw(view.draws);
-        gl_->DepthRange(0.0, 1.0);
     }
 
     void begin(GLuint framebuffer, Extent extent, GLuint program) const {

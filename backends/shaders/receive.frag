@@ -45,8 +45,9 @@ void main() {
     vec3 plane_normal = geometric_normal(to_eye);
     float spot = cone(to_light);
 
-    Shadow shadow = shadow_at(point, plane_normal, sm_dot(frame.eye_forward.xyz, position_from_eye));
-    if (spot == 0.0) shadow.visibility = 0.0;
+    sm_LookUp look_up = look_up_at(point, sm_dot(frame.eye_forward.xyz, position_from_eye));
+    if (is_of_another_split(look_up)) discard;
+    float visibility = spot == 0.0 ? 0.0 : visibility_at(look_up, point, plane_normal);
 
     vec3 normal = direction_or(shading_normal, plane_normal);
     if (sm_dot(normal, plane_normal) < 0.0) normal = -normal;  // the back of an open mesh
@@ -54,10 +55,10 @@ void main() {
     precise vec3 between = to_light + to_eye;
     float facing_half = max(sm_dot(normal, direction_or(between, normal)), 0.0);
     precise float specular = diffuse > 0.0 ? frame.specular * pow(facing_half, frame.specular_power) : 0.0;
-    precise vec3 direct = frame.light_colour.rgb * ((diffuse + specular) * spot * shadow.visibility);
+    precise vec3 direct = frame.light_colour.rgb * ((diffuse + specular) * spot * visibility);
     precise vec3 shaded = (frame.ambient.rgb + direct) * reflectance;
 
     colour = vec4(shaded, 1.0);
-    position_and_map = vec4(point, float(shadow.map < 0 ? shadow.map : frame.first_map + shadow.map));
-    normal_and_visibility = vec4(plane_normal, shadow.visibility);
+    position_and_map = vec4(point, float(look_up.first));
+    normal_and_visibility = vec4(plane_normal, visibility);
 }

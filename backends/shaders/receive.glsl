@@ -32,6 +32,6 @@ layout(std140, binding = 0) uniform FrameConstants {
     float map_size;
     float specular;
     float specular_power;
-    int first_map;
+    int split;
     MapConstants maps[max_maps];
 } frame;

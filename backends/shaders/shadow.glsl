@@ -8,11 +8,6 @@
 
 layout(binding = 1) uniform sampler2DArray depths;
 
-struct Shadow {
-    int map;           // that was read; -1: none
-    float visibility;
-};
-
 sm_MapBias bias_of(int map) {
     MapConstants m = frame.maps[map];
     return sm_MapBias(m.bias_constant, m.bias_w, m.bias_slope_texels, m.slope_limit);
@@ -26,7 +21,8 @@ sm_ShadowMap shadow_map(int map) {
 }
 
 float map_visibility(int map, vec3 point, vec3 normal) {
-    return sm_visibility(depths, map, shadow_map(map), int(frame.map_size), point, normal, bias_of(map),
+    int layer = frame.split < 0 ? map : 0;
+    return sm_visibility(depths, layer, shadow_map(map), int(frame.map_size), point, normal, bias_of(map),
                          frame.filter_radius, frame.tap_plane == 1);
 }
 
@@ -48,14 +44,21 @@ sm_LookUp look_up_by_map(vec3 point) {
     return sm_LookUp(-1, -1, 0.0);
 }
 
-Shadow shadow_at(vec3 point, vec3 normal, float eye_depth) {
-    sm_LookUp look_up = sm_LookUp(-1, -1, 0.0);
-    if (frame.choice == choose_by_depth) look_up = look_up_by_depth(eye_depth);
-    else look_up = look_up_by_map(point);
+sm_LookUp look_up_at(vec3 point, float eye_depth) {
+    if (frame.choice == choose_by_depth) return look_up_by_depth(eye_depth);
+    return look_up_by_map(point);
+}
+
+// Where one map is there at a time: whether it is not this one.
+bool is_of_another_split(sm_LookUp look_up) {
+    return frame.split >= 0 && (look_up.first < 0 ? frame.map_count : look_up.first) != frame.split;
+}
+
+float visibility_at(sm_LookUp look_up, vec3 point, vec3 normal) {
     // A loop, so that the filter stands in the shader once: software drivers walk through both sides of every branch.
     vec2 lit = vec2(1.0);
     int reads = look_up.first < 0 ? 0 : (look_up.second < 0 ? 1 : 2);
     for (int i = 0; i < reads; ++i)
         lit[i] = map_visibility(i == 0 ? look_up.first : look_up.second, point, normal);
-    return Shadow(look_up.first, sm_blended(look_up, lit.x, lit.y));
+    return sm_blended(look_up, lit.x, lit.y);
 }

@@ -11,13 +11,6 @@
 
 namespace shadowmath::backend::vk {
 
-// A positive viewport: NDC y = -1 is row 0, as in the other backends.
-inline void set_viewport(VkCommandBuffer commands, Extent extent, float z_begin, float z_end) {
-    VkViewport const viewport{0.0f,    0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              z_begin, z_end};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-}
-
 inline void begin_pass(VkCommandBuffer commands, VkRenderPass render_pass, VkFramebuffer framebuffer, Extent extent,
                        std::span<VkClearValue const> clear, VkPipeline pipeline) {
     VkRect2D const area{{0, 0}, {static_cast<std::uint32_t>(extent.width), static_cast<std::uint32_t>(extent.height)}};
@@ -30,7 +23,10 @@ inline void begin_pass(VkCommandBuffer commands, VkRenderPass render_pass, VkFra
     info.pClearValues = clear.data();
     vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    set_viewport(commands, extent, 0.0f, 1.0f);
+    // A positive viewport: NDC y = -1 is row 0, as in the other backends.
+    VkViewport const viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0f, 1.0f};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &area);
 }
 

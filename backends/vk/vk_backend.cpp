@@ -369,7 +369,6 @@ private:
     }
 
     void draw_view(VkCommandBuffer commands, ViewDraw const& view, std::size_t index) const {
-        set_viewport(commands, frame_.extent, view.z_begin, view.z_end);
         draw(commands, Constants::offset_of_frame(index), view.draws);
     }
 

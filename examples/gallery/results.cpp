@@ -69,8 +69,7 @@ Json to_json(WayRecord const& w) {
             {"unlike_texels", w.unlike_texels},
             {"largest_difference", w.largest_difference},
             {"pixels", w.pixels},
-            {"unlike_pixels", w.unlike_pixels},
-            {"unlike_off_edges", w.unlike_off_edges}};
+            {"unlike_pixels", w.unlike_pixels}};
 }
 
 Json to_json(Parity const& p) {

@@ -25,8 +25,6 @@ struct WayRecord {
     long texels = 0, unlike_texels = 0;
     double largest_difference = 0.0;  // of depth, [0, 1]
     long pixels = 0, unlike_pixels = 0;
-    long unlike_off_edges = 0;  // by more than one of 255, clear of every outline, shadow border and border of a split,
-                                // and from all that the other picture shows within a pixel
 };
 
 // The ways that the backend has, one pass a map first; then, with the picture, all maps at once and split by split.

@@ -115,7 +115,8 @@ struct Extent {
     }
 };
 
-// The casters in the shaft of light that the map sees, from the light down to `last`.
+// The casters in the shaft of light that the map sees, from the light down to `last`. Its sides stand out by what the
+// farthest caster is rounded by, or one far above a narrow map would seem to lie beside it.
 template <class T>
 [[nodiscard]] inline ConvexBody<T> casters_in(MapRows<T> const& rows, Vec3<T> const& eye, Aabb<T> const& casters,
                                               T reach_metres, T last) noexcept {
@@ -126,8 +127,10 @@ template <class T>
     Vec4<T> const one(T(0), T(0), T(0), T(1));
     if (!rows.parallel) shaft = clipped(shaft, rows.along - one * rows.along_floor);
     shaft = clipped(shaft, one * last - rows.along);
+    T const farthest = glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))) + glm::length(eye);
+    T const rounding = T(64) * std::numeric_limits<T>::epsilon() * farthest;
     for (Vec4<T> const& side : {rows.w - rows.x, rows.w + rows.x, rows.w - rows.y, rows.w + rows.y})
-        shaft = clipped(shaft, side);
+        shaft = clipped(shaft, side + one * (rounding * glm::length(Vec3<T>(side))));
     return clipped(shaft, rows.parallel ? rows.w - one * rows.w_min : rows.w);
 }
 

@@ -48,8 +48,8 @@ TEST(FitRectangle, FindsATurnedRectangleExactly) {
     }
 }
 
-// Found by the fuzzer. Margins of eight texels of 19 put the sides six bodies apart, where the last bit of a double is a
-// hundred times what a vertex 14 micrometres from the origin is rounded by.
+// Found by the fuzzer. Margins of eight texels of 19 put the sides six bodies apart, where the last bit of a double is
+// a hundred times what a vertex 14 micrometres from the origin is rounded by.
 TEST(FitRectangle, HoldsAVertexNearTheOriginToTheRoundingOfItsBody) {
     Aabb<double> const body{V3(-0x1.3f33f5c28f5c2p-6, -0x1.4028f5c28f5c2p-6, -0x1.4028f52a0f5c2p-6),
                             V3(-0x1.98147ae147bp-15, 0x1.47ae147ae14p-17, 0x1.47a9507ae14p-17)};

@@ -463,8 +463,8 @@ TEST(ReceiverValid, IsWhereWIsAboveItsLeast) {
     EXPECT_FALSE(receiver_valid(map, Vec3<double>(3, 4, 5)));
 }
 
-// Found by the fuzzer: the caster is nine times as far away as the view is deep, the plane lies along light and eye, and
-// the depth row of a float is -w but for 190 roundings. Those suffice.
+// Found by the fuzzer: the caster is nine times as far away as the view is deep, the plane lies along light and eye,
+// and the depth row of a float is -w but for 190 roundings. Those suffice.
 TEST(Vdsm, OrdersAFarCasterInOpenGlsDefaultRange) {
     using F3 = glm::vec3;
     ViewVolume<float> eye;

@@ -585,6 +585,21 @@ TEST(SimplePerspectiveMap, ServesAPointALineAndAPlane) {
     }
 }
 
+// Found by the fuzzer: a point's map is as wide as the point's own rounding, and a caster far above is rounded more.
+TEST(SimplePerspectiveMap, OfAPointHoldsTheCasterHoweverFarAboveIt) {
+    for (int turn = 0; turn < 60; ++turn) {
+        V3 const travel = glm::normalize(V3(std::cos(0.1 * turn), -1.0 - 0.02 * turn, std::sin(0.1 * turn)));
+        V3 const point(3.0 - 0.1 * turn, 0.5, -12.0 - turn);
+        for (double const metres : {10.0, 1e3, 1e4}) {
+            V3 const caster = point - travel * metres;
+            ShadowMap<double> const map = simple_perspective_map(
+                level_view(), directional(travel), merge({point, point}, caster), {point, point}, {}, gl_clip);
+            ASSERT_TRUE(map.visible);
+            EXPECT_TRUE(laws::serves(map, caster, 0.0)) << metres << " m above " << point.x << ", " << point.z;
+        }
+    }
+}
+
 TEST(SimplePerspectiveMap, MendsBoxesWithoutEndAndAViewWithoutEnd) {
     Aabb<float> const endless{glm::vec3(std::numeric_limits<float>::lowest()),
                               glm::vec3(std::numeric_limits<float>::max())};

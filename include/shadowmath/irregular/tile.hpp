@@ -108,8 +108,8 @@ struct TileKernel {
         return inside;
     }
 
-    // The quads of sixteen pixels (micro_quad, of which these are the lanes): q + q_x x + q_y y at the corner of a pixel,
-    // which is one over the depth, or the depth itself where the eye is flat.
+    // The quads of sixteen pixels (micro_quad, of which these are the lanes): q + q_x x + q_y y at the corner of a
+    // pixel, which is one over the depth, or the depth itself where the eye is flat.
     struct Quads {
         Lanes x, y;  // of the lower corners, pixels from the middle of the picture
         Lanes normal_x, normal_y, normal_z;

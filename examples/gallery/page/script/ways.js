@@ -75,8 +75,9 @@ function waysFound() {
   const saved = ways.filter(w => w.with_picture && w.maps_in_memory < w.maps);
   if (saved.length) {
     const most = Math.max(...saved.map(w => w.maps));
-    found.push(`Split by split needs memory for one map instead of ${most}; ${percent(totalOf(saved, "unlike_pixels") / totalOf(saved, "pixels"))} of its pixels are unlike, ` +
-      "for a triangle that a split’s end cuts rounds otherwise.");
+    const pixels = totalOf(saved, "unlike_pixels");
+    found.push(`Split by split needs memory for one map instead of ${most}; of its ${whole(totalOf(saved, "pixels"))} pixels ` +
+      `${pixels ? whole(pixels) : "none"} ${pixels === 1 ? "is" : "are"} unlike.`);
   }
   return found.join(" ");
 }
