@@ -34,13 +34,14 @@ Aabb<double> const town{V3(-300, -1, -300), V3(300, 20, 300)};
 // surface in its middle.
 struct Street {
     ViewVolume<double> view = street_view();
-    int width = 40, height = 25;
+    int width, height;
     std::vector<double> nearest, farthest;
     std::vector<SurfacePoint<double>> samples;
     std::vector<Aabb<double>> boxes{
         {V3(-300, -1, -300), V3(300, 0, 300)}, {V3(-18, 0, -300), V3(-8, 12, 300)}, {V3(8, 0, -300), V3(18, 15, 300)}};
 
-    explicit Street(ViewVolume<double> const& seen = street_view()) : view(seen) {
+    explicit Street(ViewVolume<double> const& seen = street_view(), int tiles_x = 40, int tiles_y = 25)
+        : view(seen), width(tiles_x), height(tiles_y) {
         nearest.assign(std::size_t(width * height), std::numeric_limits<double>::max());
         farthest.assign(std::size_t(width * height), std::numeric_limits<double>::lowest());
         constexpr int fine = 4;
@@ -295,6 +296,14 @@ TEST(ChooseMaps, OfNothingIsNothingAndNoFault) {
         << "no tiles";
     EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.boxes.data(), 0, limits, work)))
         << "no boxes";
+    EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.samples.data(), int(street.samples.size()),
+                                       DepthTiles<double>{street.nearest.data(), street.farthest.data(), 4, 0}, limits,
+                                       work)))
+        << "no row of tiles";
+    MapLimits<double> countless;
+    countless.eye_pixels = V2(std::numeric_limits<double>::max());
+    EXPECT_TRUE(is_nothing(street.chosen(countless))) << "more pixels than can be counted for a metre";
+    EXPECT_TRUE(is_nothing(street.chosen_from_boxes(countless))) << "the same";
     street.nearest.assign(street.nearest.size(), 1.0);
     street.farthest.assign(street.farthest.size(), 0.5);
     EXPECT_TRUE(is_nothing(street.chosen())) << "nothing is seen";
@@ -324,6 +333,7 @@ TEST(ChooseMaps, EveryBadInputHasItsFaultAndHarmlessMaps) {
     row("a light of NaN", Fault::not_finite, false, [](Row& r) { r.light = directional(V3(no_number)); });
     row("a spot", Fault::clamped_option, false, [](Row& r) { r.light = spot(V3(0, 9, 0), V3(0, -1, 0), 0.5, 30.0); });
     row("no pixels", Fault::clamped_option, false, [](Row& r) { r.limits.eye_pixels = V2(0, 9); });
+    row("no rows of pixels", Fault::clamped_option, false, [](Row& r) { r.limits.eye_pixels = V2(9, 0); });
     row("pixels of NaN", Fault::clamped_option, false, [](Row& r) { r.limits.eye_pixels = V2(no_number, 9); });
     row("a map of four texels", Fault::map_too_small, false, [](Row& r) { r.limits.map_size = 4; });
     row("a margin of NaN", Fault::not_finite, false, [](Row& r) { r.limits.margin_texels = no_number; });
@@ -363,6 +373,72 @@ TEST(ChooseMaps, DepthsAndSamplesThatAreNoNumbersAreLeftOut) {
     boxes.boxes.push_back({V3(no_number), V3(1)});
     boxes.boxes.push_back({V3(1), V3(0)});
     EXPECT_TRUE(laws::same(boxes.chosen_from_boxes(), street.chosen_from_boxes()));
+}
+
+// Each five times: no more is known than before.
+TEST(ChooseMaps, OfMoreSamplesThanASearchHoldsItLooksAtSomeFromEverywhere) {
+    Street const few;
+    Street many;
+    for (int again = 0; again < 4; ++again)
+        many.samples.insert(many.samples.end(), few.samples.begin(), few.samples.end());
+    ChosenMaps<double> const chosen = many.chosen();
+    int looked_at = 0;
+    for (auto const& made : chosen) looked_at += made.samples;
+    EXPECT_GT(many.samples.size(), std::size_t(3 * max_search_samples));
+    EXPECT_LE(looked_at, max_search_samples);
+    EXPECT_GT(looked_at, max_search_samples / 2);
+    EXPECT_LT(mean_footprint(few, maps_of(chosen), 1024), 1.1 * mean_footprint(few, maps_of(few.chosen()), 1024));
+}
+
+// 1200 tiles and no sample, some of them with depths that are none.
+TEST(ChooseMaps, OfMoreTilesThanASearchHoldsItLooksAtSomeFromEverywhere) {
+    Street street(street_view(), 48, 30);
+    street.samples.clear();
+    ChosenMaps<double> const clean = street.chosen();
+    int looked_at = 0;
+    for (auto const& made : clean) looked_at += made.samples;
+    EXPECT_LE(looked_at, max_search_samples);
+    EXPECT_GT(looked_at, max_search_samples / 4);
+    for (int i = 0; i < street.width * street.height; ++i) {
+        auto const tile = std::size_t(i);
+        if (!(street.nearest[tile] <= street.farthest[tile])) continue;
+        V3 const point = point_at(street.view, Street::side_of(i % 48, 48, street.view.left, street.view.right),
+                                  Street::side_of(i / 48, 30, street.view.bottom, street.view.top),
+                                  street.farthest[tile]);
+        EXPECT_GE(laws::server_of(clean, MapLimits<double>{}, point, 1e-9), 0);
+    }
+    // Of the sky, and so none before either: not finite, turned over, behind the eye, beyond the view.
+    struct Depths {
+        double nearest, farthest;
+    };
+    for (Depths const depths : {Depths{no_number, 9.0}, Depths{9.0, endless}, Depths{9.0, 8.0}, Depths{-9.0, -8.0},
+                                Depths{500.0, 600.0}, Depths{0.0, 0.0}}) {
+        Street spoilt = street;
+        for (std::size_t tile = 0; tile < spoilt.nearest.size(); ++tile)
+            if (!(street.nearest[tile] <= street.farthest[tile]))
+                spoilt.nearest[tile] = depths.nearest, spoilt.farthest[tile] = depths.farthest;
+        EXPECT_TRUE(laws::same(spoilt.chosen(), clean)) << depths.nearest;
+    }
+}
+
+// Its first tiles lie in the plane of the eye itself, of which nothing is seen.
+TEST(ChooseMaps, ThePlaneOfAnOrthographicEyeIsNoTile) {
+    ViewVolume<double> const flat =
+        orthographic_view(pose_looking(V3(0, 10, 0), V3(0, -1, 0), V3(0, 0, -1)), -20.0, 20.0, -20.0, 20.0, 0.0, 50.0);
+    MapSearch<double> static work;
+    std::vector<double> depth(16, 10.0);
+    SurfacePoint<double> const* const none = nullptr;
+    DepthTiles<double> const tiles{depth.data(), depth.data(), 4, 4};
+    ChosenMaps<double> const ground = choose_maps(flat, morning, town, none, 0, tiles, MapLimits<double>{}, work);
+    ASSERT_GT(ground.count, 0);
+    EXPECT_TRUE(laws::are_maps_of(ground, morning, gl_clip));
+    int all = 0, but_one = 0;
+    for (auto const& made : ground) all += made.samples;
+    depth[5] = 0.0;
+    for (auto const& made : choose_maps(flat, morning, town, none, 0, tiles, MapLimits<double>{}, work))
+        but_one += made.samples;
+    EXPECT_EQ(all, 16);
+    EXPECT_EQ(but_one, 15);
 }
 
 TEST(ChooseMaps, BoxesWithoutAnEndAreCutToTheView) {
