@@ -194,8 +194,8 @@ template <class T, class Bound, class Cover>
     }
     T weight = T(0);
     for (int i = 0; i < work.count; ++i) weight += work.sample[static_cast<unsigned>(i)].weight;
-    chosen.one_map = weight > T(0) ? chosen.one_map / weight : T(0);
-    chosen.price = weight > T(0) ? least / weight : T(0);
+    chosen.one_map /= weight;
+    chosen.price = least / weight;
     return chosen;
 }
 
@@ -209,7 +209,7 @@ inline void take_samples(MapSearch<T>& work, LightSampler<T> const& sampler, Sur
     int const stride = (asked + max_search_samples - 1) / max_search_samples;
     int seen = 0;
     work.count = 0;
-    for (int i = 0; i < count && work.count < max_search_samples; ++i) {
+    for (int i = 0; i < count; ++i) {
         LightSample<T> const sample = light_sample(sampler, samples[i]);
         if (!is_asked(sample)) continue;
         // One of each `stride`, not always the same one: else all might lie in a few columns of the picture.

@@ -149,6 +149,32 @@ TEST(BiasFor, ALightWithoutDirectionOrAMapOfNothingGetsNoBias) {
     }
 }
 
+// Each of them alone comes to more than the type holds.
+TEST(BiasFor, OptionsThatComeToNothingFiniteGiveNoBias) {
+    Overhead const overhead;
+    constexpr double most = std::numeric_limits<double>::max();
+    BiasOptions<double> step = nothing(), metres = nothing();
+    step.depth_step = most;
+    metres.metres = most;
+    ShadowMap<double> shallow = overhead.map;  // a thousand times its whole depth a metre
+    for (int column = 0; column < 4; ++column) shallow.clip_from_world[column].z *= 4e4;
+    ShadowMap<double> const near_lamp = spot_map(1e-3, 30.0);
+    Light<double> const lamp = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 1.0, 30.0);
+    ShadowMap<double> far_away = overhead.map;
+    far_away.clip_from_world[3].x = 1e307;
+    int row = 0;
+    for (MapBias<double> const& bias :
+         {bias_for(overhead.map, overhead.light, 100, step), bias_for(shallow, overhead.light, 100, metres),
+          bias_for(near_lamp, lamp, 100, metres), bias_for(far_away, overhead.light, 1 << 30, nothing())}) {
+        ++row;
+        EXPECT_EQ(bias.constant, 0.0) << row;
+        EXPECT_EQ(bias.per_inverse_w, 0.0) << row;
+        EXPECT_EQ(bias.slope_texels, 0.0) << row;
+        EXPECT_EQ(bias.slope_limit, MapBias<double>{}.slope_limit);
+    }
+    EXPECT_GT(bias_for(overhead.map, overhead.light, 100, metres).constant, 1e300);
+}
+
 TEST(BiasFor, SlopesOfAWarpLeanAsMuchAsTheWorseOfItsEnds) {
     // Depth leans by 0.05 a metre at its near end, and by 0.05 - 0.1 at its far one.
     Overhead overhead;

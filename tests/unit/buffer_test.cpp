@@ -8,6 +8,9 @@ using namespace shadowmath;
 TEST(StorageFor, IsNothingForNoPictureAndGrowsWithEverything) {
     EXPECT_EQ(storage_for(0, 10, 16).scalars, 0u);
     EXPECT_EQ(storage_for(10, 10, 0).words, 0u);
+    EXPECT_EQ(storage_for(10, 0, 16).words, 0u);
+    EXPECT_EQ(storage_for(10, 10, largest_grid + 1).scalars, 0u);
+    EXPECT_GT(storage_for(10, 10, largest_grid).scalars, 0u);
     StorageSize const least = storage_for(64, 64, 16);
     for (StorageSize const more :
          {storage_for(128, 64, 16), storage_for(64, 128, 16), storage_for(64, 64, 64), storage_for(64, 64, 16, 4096)}) {

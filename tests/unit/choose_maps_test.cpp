@@ -34,13 +34,15 @@ Aabb<double> const town{V3(-300, -1, -300), V3(300, 20, 300)};
 // surface in its middle.
 struct Street {
     ViewVolume<double> view = street_view();
-    int width = 40, height = 25;
+    int width, height;
     std::vector<double> nearest, farthest;
     std::vector<SurfacePoint<double>> samples;
     std::vector<Aabb<double>> boxes{
         {V3(-300, -1, -300), V3(300, 0, 300)}, {V3(-18, 0, -300), V3(-8, 12, 300)}, {V3(8, 0, -300), V3(18, 15, 300)}};
 
-    explicit Street(ViewVolume<double> const& seen = street_view()) : view(seen) {
+    explicit Street(ViewVolume<double> const& seen = street_view(), int tiles_x = 40, int tiles_y = 25,
+                    int sample_every = 4)
+        : view(seen), width(tiles_x), height(tiles_y) {
         nearest.assign(std::size_t(width * height), std::numeric_limits<double>::max());
         farthest.assign(std::size_t(width * height), std::numeric_limits<double>::lowest());
         constexpr int fine = 4;
@@ -53,7 +55,7 @@ struct Street {
                 auto const tile = std::size_t(y / fine * width + x / fine);
                 nearest[tile] = std::min(nearest[tile], depth);
                 farthest[tile] = std::max(farthest[tile], depth);
-                if (x % fine == 2 && y % fine == 2) samples.push_back(hit);
+                if (x % sample_every == sample_every / 2 && y % sample_every == sample_every / 2) samples.push_back(hit);
             }
     }
     static double side_of(int i, int count, double lo, double hi) { return lo + (hi - lo) * (i + 0.5) / count; }
@@ -295,6 +297,14 @@ TEST(ChooseMaps, OfNothingIsNothingAndNoFault) {
         << "no tiles";
     EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.boxes.data(), 0, limits, work)))
         << "no boxes";
+    EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.samples.data(), int(street.samples.size()),
+                                       DepthTiles<double>{street.nearest.data(), street.farthest.data(), 4, 0}, limits,
+                                       work)))
+        << "no row of tiles";
+    MapLimits<double> countless;
+    countless.eye_pixels = V2(std::numeric_limits<double>::max());
+    EXPECT_TRUE(is_nothing(street.chosen(countless))) << "more pixels than can be counted for a metre";
+    EXPECT_TRUE(is_nothing(street.chosen_from_boxes(countless))) << "the same";
     street.nearest.assign(street.nearest.size(), 1.0);
     street.farthest.assign(street.farthest.size(), 0.5);
     EXPECT_TRUE(is_nothing(street.chosen())) << "nothing is seen";
@@ -324,6 +334,7 @@ TEST(ChooseMaps, EveryBadInputHasItsFaultAndHarmlessMaps) {
     row("a light of NaN", Fault::not_finite, false, [](Row& r) { r.light = directional(V3(no_number)); });
     row("a spot", Fault::clamped_option, false, [](Row& r) { r.light = spot(V3(0, 9, 0), V3(0, -1, 0), 0.5, 30.0); });
     row("no pixels", Fault::clamped_option, false, [](Row& r) { r.limits.eye_pixels = V2(0, 9); });
+    row("no rows of pixels", Fault::clamped_option, false, [](Row& r) { r.limits.eye_pixels = V2(9, 0); });
     row("pixels of NaN", Fault::clamped_option, false, [](Row& r) { r.limits.eye_pixels = V2(no_number, 9); });
     row("a map of four texels", Fault::map_too_small, false, [](Row& r) { r.limits.map_size = 4; });
     row("a margin of NaN", Fault::not_finite, false, [](Row& r) { r.limits.margin_texels = no_number; });
@@ -363,6 +374,69 @@ TEST(ChooseMaps, DepthsAndSamplesThatAreNoNumbersAreLeftOut) {
     boxes.boxes.push_back({V3(no_number), V3(1)});
     boxes.boxes.push_back({V3(1), V3(0)});
     EXPECT_TRUE(laws::same(boxes.chosen_from_boxes(), street.chosen_from_boxes()));
+}
+
+TEST(ChooseMaps, OfMoreSamplesThanASearchHoldsItLooksAtSomeFromEverywhere) {
+    Street const few, many(street_view(), 40, 25, 1);
+    ChosenMaps<double> const chosen = many.chosen();
+    int looked_at = 0;
+    for (auto const& made : chosen) looked_at += made.samples;
+    EXPECT_GT(many.samples.size(), std::size_t(10 * max_search_samples));
+    EXPECT_LE(looked_at, max_search_samples);
+    EXPECT_GT(looked_at, max_search_samples / 2);
+    EXPECT_LT(mean_footprint(few, maps_of(chosen), 1024), 1.25 * mean_footprint(few, maps_of(few.chosen()), 1024));
+}
+
+// 1200 tiles and no sample, some of them with depths that are none.
+TEST(ChooseMaps, OfMoreTilesThanASearchHoldsItLooksAtSomeFromEverywhere) {
+    Street street(street_view(), 48, 30);
+    street.samples.clear();
+    ChosenMaps<double> const clean = street.chosen();
+    int looked_at = 0;
+    for (auto const& made : clean) looked_at += made.samples;
+    EXPECT_LE(looked_at, max_search_samples);
+    EXPECT_GT(looked_at, max_search_samples / 4);
+    for (int i = 0; i < street.width * street.height; ++i) {
+        auto const tile = std::size_t(i);
+        if (!(street.nearest[tile] <= street.farthest[tile])) continue;
+        V3 const point = point_at(street.view, Street::side_of(i % 48, 48, street.view.left, street.view.right),
+                                  Street::side_of(i / 48, 30, street.view.bottom, street.view.top),
+                                  street.farthest[tile]);
+        EXPECT_GE(laws::server_of(clean, MapLimits<double>{}, point, 1e-9), 0);
+    }
+    // Of the sky, and so none before either: not finite, turned over, behind the eye, beyond the view.
+    struct Depths {
+        double nearest, farthest;
+    };
+    for (Depths const depths : {Depths{no_number, 9.0}, Depths{9.0, endless}, Depths{9.0, 8.0}, Depths{-9.0, -8.0},
+                                Depths{500.0, 600.0}, Depths{0.0, 0.0}}) {
+        Street spoilt = street;
+        for (std::size_t tile = 0; tile < spoilt.nearest.size(); ++tile)
+            if (!(street.nearest[tile] <= street.farthest[tile]))
+                spoilt.nearest[tile] = depths.nearest, spoilt.farthest[tile] = depths.farthest;
+        EXPECT_TRUE(laws::same(spoilt.chosen(), clean)) << depths.nearest;
+    }
+}
+
+// A tile of it is none, but the others are.
+TEST(ChooseMaps, ThePlaneOfAnOrthographicEyeIsNoTile) {
+    ViewVolume<double> const flat =
+        orthographic_view(pose_looking(V3(0, 10, 0), V3(0, -1, 0), V3(0, 0, -1)), -20.0, 20.0, -20.0, 20.0, 0.0, 50.0);
+    MapSearch<double> static work;
+    std::vector<double> depth(16, 10.0);
+    SurfacePoint<double> const* const none = nullptr;
+    DepthTiles<double> const tiles{depth.data(), depth.data(), 4, 4};
+    MapLimits<double> limits;
+    limits.maps = 1;
+    ChosenMaps<double> const ground = choose_maps(flat, morning, town, none, 0, tiles, limits, work);
+    ASSERT_EQ(ground.count, 1);
+    EXPECT_TRUE(laws::are_maps_of(ground, morning, gl_clip));
+    EXPECT_EQ(ground.at[0].samples, 16);
+    depth[0] = 0.0;
+    ChosenMaps<double> const but_one = choose_maps(flat, morning, town, none, 0, tiles, limits, work);
+    ASSERT_EQ(but_one.count, 1);
+    EXPECT_EQ(but_one.at[0].samples, 15);
+    EXPECT_GE(laws::server_of(but_one, limits, point_at(flat, -5.0, -15.0, 10.0), 1e-9), 0);
 }
 
 TEST(ChooseMaps, BoxesWithoutAnEndAreCutToTheView) {

@@ -225,6 +225,35 @@ TEST(Choose, LeavesTheOptionsAloneWhereNothingIsSeen) {
         choose<double>(street_view(), morning, town, town, nullptr, 0, given, odd).faults.has(Fault::clamped_option));
 }
 
+TEST(Choose, TriesStableMapsAloneForALamp) {
+    Light<double> const lamp = spot(V3(4, 12, -12), V3(0, -1, 0.1), 1.0, 40.0);
+    Aabb<double> const ground{V3(-30, -1, -40), V3(30, 0, 10)};
+    Samples<double> const samples = samples_in(street_view(), lamp, ground);
+    ChoiceLimits<double> limits;
+    limits.most_maps = 2;
+    Choice<double> const choice =
+        choose(street_view(), lamp, ground, ground, samples.at.data(), samples.count, {}, limits);
+    EXPECT_EQ(choice.tried, 1 + 29);
+    EXPECT_EQ(choice.options.fit, CascadeFit::stable);
+}
+
+// A warp is all that the caller knows of.
+TEST(Choose, ThatSeesNothingWeighsNoWarpsEither) {
+    CascadeOptions<double> given;
+    given.fit = CascadeFit::warped;
+    ChoiceLimits<double> limits;
+    limits.most_maps = 1;
+    Choice<double> const choice = choose(street_view(), morning, town, town, static_cast<SurfacePoint<double>*>(nullptr),
+                                         0, given, limits);
+    EXPECT_FALSE(choice.visible);
+    EXPECT_EQ(choice.options.fit, CascadeFit::warped);
+    limits.motion = Motion::any;
+    int const every_fit = 5;
+    EXPECT_EQ(choose(street_view(), morning, town, town, static_cast<SurfacePoint<double>*>(nullptr), 0, given, limits)
+                  .tried,
+              every_fit);
+}
+
 TEST(MapSizeWithin, IsTheLargestMultipleOfFourThatFits) {
     EXPECT_EQ(map_size_within(4 * 2048 * 2048, 4, 8192), 2048);
     EXPECT_EQ(map_size_within(4 * 2048 * 2048 - 1, 4, 8192), 2044);

@@ -95,6 +95,23 @@ TYPED_TEST(Tracing, FullCoverGivesAllOnes) {
     EXPECT_TRUE(std::all_of(masks.begin(), masks.end(), [](std::uint32_t mask) { return mask == every_sample; }));
 }
 
+// More than a block holds, and more than wait for their tiles at once.
+TYPED_TEST(Tracing, FullCoverByThousandsOfTrianglesGivesAllOnes) {
+    using T = typename TypeParam::Scalar;
+    using V = Vec3<typename TypeParam::Scalar>;
+    std::vector<Triangle<T>> mesh;
+    for (int z = 0; z < 64; ++z)
+        for (int x = 0; x < 64; ++x) {
+            auto const at = [](int i, int j) { return V(T(i - 32) / T(4), T(1.5), T(j - 32) / T(4)); };
+            for (auto const& triangle : this->quad(at(x, z), at(x + 1, z), at(x + 1, z + 1), at(x, z + 1)))
+                mesh.push_back(triangle);
+        }
+    ASSERT_GT(mesh.size(), std::size_t(this->width * this->height));
+    auto const whole = this->under_sun(this->quad(V(-8, T(1.5), -8), V(8, T(1.5), -8), V(8, T(1.5), 8), V(-8, T(1.5), 8)));
+    ASSERT_EQ(this->dark_samples(whole), std::size_t(32 * this->width * this->height));
+    for (int const map_size : {1, 16, 64}) EXPECT_EQ(this->under_sun(mesh, map_size), whole) << map_size;
+}
+
 TYPED_TEST(Tracing, NoLightLeaksAlongSharedEdgesOrThroughSharedCorners) {
     using T = typename TypeParam::Scalar;
     using V = Vec3<typename TypeParam::Scalar>;
@@ -132,6 +149,28 @@ TYPED_TEST(Tracing, DoesNotDependOnTheOrderOfTrianglesOnWindingOrOnTheGrid) {
     reversed_map.clip = reversed(d3d_clip);
     reversed_map.clip_from_world = clip_from_canonical<T>(reversed_map.clip) * this->sun_grid().clip_from_world;
     EXPECT_EQ(traced<TypeParam>(this->floor, casters, this->sun, reversed_map, 32).masks, masks);
+}
+
+// To the horizon: its last tiles are longer than the map, its first ones a thousandth of it.
+TYPED_TEST(Tracing, ATexelFullOfTilesOfAllSizesIsAsGoodAsAFineGrid) {
+    using T = typename TypeParam::Scalar;
+    using V = Vec3<typename TypeParam::Scalar>;
+    ViewVolume<T> const low = perspective_view<T>(pose_looking(V(0, T(1.2), 4), V(0, T(-0.3), -1), V(0, 1, 0)), T(0.8),
+                                                  T(1), T(0.1), T(1000));
+    PlanePicture<T> const ground = picture_of_plane(low, 96, 96, V(0, 0, 0), V(0, 1, 0));
+    std::vector<Triangle<T>> casters;
+    for (int i = 0; i < 60; ++i) {
+        T const z = T(3) - T(i * i) / T(60), x = T(i % 7) - T(3);
+        casters.push_back({V(x, T(0.2), z), V(x + T(1.5), 2, z), V(x, T(0.7), z - 1)});
+    }
+    auto const masks_on = [&](int map_size) {
+        Traced const result = traced<TypeParam>(ground, casters, this->sun, this->sun_grid(), map_size);
+        EXPECT_FALSE(result.faults.any()) << describe(result.faults);
+        return result.masks;
+    };
+    auto const masks = masks_on(64);
+    EXPECT_GT(this->dark_samples(masks), 1000u);
+    for (int const map_size : {1, 2, 4}) EXPECT_EQ(masks_on(map_size), masks) << map_size;
 }
 
 TYPED_TEST(Tracing, AddsAndNeverClears) {
