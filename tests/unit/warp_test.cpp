@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the map serves, spends its depth on, and how it moves. Of its centre, the papers and bad input: the files beside.
+// What the map serves, spends its depth on, and how it moves. Its centre, the papers and bad input: the files beside.
 #include "tests/laws/warp.hpp"
 #include "tests/support/warp_cases.hpp"
 
