@@ -32,8 +32,9 @@
 //
 // The one place where GLM comes in, the names of its types, and the assertion.
 //
-// No more of GLM than is used: all of it takes an eighth longer to compile, and whoever wants it includes it. GLM's
-// macros may be set in any way: shadowmath calls nothing whose meaning depends on them.
+// Only what is used of GLM is included: all of it takes an eighth longer to compile. GLM's macros may be set in any
+// way, since shadowmath calls nothing whose meaning depends on them.
+//
 // To replace the assertion, put a header <shadowmath_user_config.hpp> that defines SHADOWMATH_ASSERT on the include
 // path.
 
@@ -89,7 +90,7 @@ template <class T>
 
 // ======== shadowmath/finite.hpp ========
 //
-// Is it a number, and how long is it: the two questions asked at the door of every public function.
+// Is it finite, and how long is it: the two questions that every public function asks of its input.
 //
 // NOTE: under -ffast-math compilers assume that NaN and infinity do not exist and fold std::isnan, x != x and even bit
 // tests of computed values to a constant. What survives is a look at the bits in the memory of the caller's inputs. So
@@ -4045,10 +4046,8 @@ template <class T>
 //      +---+---+---+---+    axis   +x  -x  +y  -y  +z  -z       of the world
 //      |-x |+z |+x |-z |
 //      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D
-// ones
-//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces.
-// They
-//          +---+            are not the layers of a cube texture: those cannot be zoomed in on.
+//          |-y |            ones for tiles of an atlas, each with its own margin, so that filters see no seams between
+//          +---+            faces; not layers of a cube texture, which cannot be zoomed in on.
 //
 // Source: six perspective faces are common knowledge; the crop is that of fit_spot.
 
@@ -4286,6 +4285,7 @@ template <class T>
 //     |/  body \|                     h = h1 (-h2 . l) + h2 (h1 . l),     so that h . l = 0:
 //      \_______/   <- unlit faces
 //                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself.
+//
 // No edge is ever measured, so short ones do no harm. Faces that meet at a knife's edge make a small sum, of which
 // rounding has its share: so only its direction is used, and the plane put where it touches the body.
 //
@@ -4503,8 +4503,8 @@ template <class T>
 
 // ======== shadowmath/fit_rectangle.hpp ========
 //
-// The smallest rectangle around a body as the light sees it, at whatever angle: never more texels than fit_box, a
-// quarter fewer over a view frustum in the mean. As with fit_box, size and place change as the camera turns, and
+// The smallest rectangle around a body as the light sees it, at whatever angle: never larger than fit_box, and a
+// quarter smaller on average around a view frustum. As with fit_box, size and place change as the camera turns, and
 // edges crawl; use it where fit_box would do.
 //
 //    ___________         A least rectangle has a side along an edge of the hull (Freeman and Shapira 1975). The hull's
@@ -4991,7 +4991,8 @@ template <class T>
 
 // ======== shadowmath/culling.hpp ========
 //
-// Which maps an object must be drawn into: a bit for each, and the range [first, last] that one instanced draw covers.
+// Which maps an object must be drawn into: a bit for each map, and the range [first, last] that one instanced draw
+// covers.
 //
 //        light              A caster counts for a map when it reaches into the shaft of light that ends in the map:
 //     |  A |                between its four sides, before its far end, and as far toward the light as you like.
@@ -5511,9 +5512,9 @@ struct LightOnBox {
 // not.
 //
 // Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in the papers
-// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole of the map
-// is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
-// of the light. From the papers: every warp is fitted anew after it, and fades with the same angle.
+// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole map is filled, depth is not
+// clipped, the centre of projection is free of the camera, and the strength follows the angle of the light. From the
+// papers: the warped view is fitted anew, and every warp fades with the same angle.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -6385,7 +6386,7 @@ template <class T>
 
 // ======== shadowmath/cascades.hpp ========
 //
-// The one call: a view, a light and two boxes in; one matrix a cascade out.
+// The one call: a view, a light and two boxes go in, one matrix for each cascade comes out.
 //
 //   view ── splits ── slices ─┬─ fit ── depth range ── matrix
 //   light ── basis ───────────┘
@@ -8580,8 +8581,8 @@ template <class T>
 // Each of a few hundred rays meets some boxes. What they hold is not known, so a ray is taken to end in each box that
 // it meets with even odds, and in the last one for certain: there is a ground. A surface in a box is as likely in its
 // nearer as in its farther half. Of a box that the eye is in, it sees the room, and its far end where no other box is
-// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is
-// weighed is perspective aliasing alone.
+// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is weighed is perspective
+// aliasing alone.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -8700,13 +8701,12 @@ template <class T>
 // ======== shadowmath/quad_map.hpp ========
 //
 // A map whose four sides are any four lines of the light's plane: the one homography that takes the quadrilateral
-// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared and lopsided ones are all
-// this.
+// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared or lopsided, are all this.
 //
-//          top               Each side is a line l with l(p) >= 0 inside. Of four lines in a plane one combination
-//        ________            vanishes,
-//       /        | .
-// left /         |  right        a left + b right = c bottom + d top,     a, b, c, d > 0,
+//          top               Each side is a line l with l(p) >= 0 inside. One combination of four lines in a plane
+//        ________            is zero everywhere,
+//       /        |
+// left /         | right         a left + b right = c bottom + d top,     a, b, c, d > 0,
 //     /__________|
 //         bottom             and with it w = a left + b right, x = a left - b right, y = c bottom - d top: x = -w on
 //                            the left side, x = w on the right one, w > 0 between.
@@ -10955,9 +10955,9 @@ template <class T>
 // Percentage-closer soft shadows: edges that are sharp where the occluder touches and wide where it is far, from one
 // ordinary map. Look for occluders, take their mean gap, filter as wide as the penumbra of that gap.
 //
-// Use it for one light close to the eye, where the softness of a shadow tells how far its caster is; where it does not,
-// filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high one overlap, the
-// edge is of a width in between.
+// Use it for one light whose shadows are close to the eye, where softness tells how far the caster is; where it would
+// not be noticed, filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high
+// one overlap, the width of the edge lies in between.
 //
 // Source: Fernando, SIGGRAPH 2005 Sketches; the disk of taps is Vogel's, Mathematical Biosciences 44, 1979.
 // Departures: gaps instead of linear depths (penumbra.hpp). The search counts an occluder only from inside the cone
@@ -11290,8 +11290,8 @@ template <class T>
 // receiver in it is occluded. Moments are of z = 2 depth - 1.
 //
 // Source: Peters and Klein, Moment Shadow Mapping, I3D 2015 (the Hamburger problem); packing and bias as in Peters
-// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being
-// infinite, so there is no receiver for which it divides by zero.
+// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being infinite, so there is no
+// receiver for which it divides by zero.
 
 namespace shadowmath {
 inline namespace v0 {
