@@ -195,6 +195,8 @@ TEST(House, EveryHeaderHasLawsOrAUnitTest) {
                                                      {"cover", "trace"},
                                                      {"plain_lanes", "irregular_lanes"},
                                                      {"x86_lanes", "irregular_lanes"},
+                                                     {"bounds_of_body", "projected_bounds"},
+                                                     {"bounds_of_boxes", "projected_bounds"},
                                                      {"slice_edges", "slices_in_scene"},
                                                      {"view_of_box", "slices_in_scene"},
                                                      {"four_warps", "slice_warps"},
