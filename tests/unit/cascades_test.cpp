@@ -157,6 +157,25 @@ TYPED_TEST(CascadesOf, EachMapHasItsShareOfTheWarp) {
     EXPECT_TRUE(broken.at[2].map.visible);
 }
 
+TYPED_TEST(CascadesOf, NoFewerThanNoMapsAndNoMoreThanAllAreSteady) {
+    this->options.fit = CascadeFit::warped;
+    auto const same = [](auto const& a, auto const& b) {
+        for (int i = 0; i < 4; ++i)
+            if (a.at[i].map.clip_from_world != b.at[i].map.clip_from_world) return false;
+        return a.count == 4 && b.count == 4;
+    };
+    auto const none = this->fitted();
+    this->options.steady_maps = -3;
+    EXPECT_TRUE(same(this->fitted(), none));
+    this->options.steady_maps = 4;
+    auto const all = this->fitted();
+    this->options.steady_maps = 9;
+    EXPECT_TRUE(same(this->fitted(), all));
+    this->options.fit = CascadeFit::stable;
+    EXPECT_TRUE(same(this->fitted(), all));
+    EXPECT_FALSE(same(none, all));
+}
+
 TYPED_TEST(CascadesOf, AWarpThatIsStrongerThanThereIsIsTheStrongest) {
     using T = TypeParam;
     this->options.fit = CascadeFit::warped;

@@ -130,6 +130,38 @@ TYPED_TEST(SliceWarps, AreMadeOneByOneWhereLanesHaveNoRuleForThem) {
     for (int i = 0; i < 6; ++i) EXPECT_EQ(this->maps[i].clip_from_world, this->twin(i, lamp).clip_from_world);
 }
 
+// What only the other rules ask for must be a number all the same, as for the map of one slice.
+TYPED_TEST(SliceWarps, AreWhatTheirTwinsAreOfOptionsThatAreNoNumbers) {
+    using T = TypeParam;
+    constexpr T nan = std::numeric_limits<T>::quiet_NaN();
+    WarpOptions<T> const good = this->options;
+    for (T WarpOptions<T>::*spoilt : {&WarpOptions<T>::strength, &WarpOptions<T>::focus_metres,
+                                      &WarpOptions<T>::coefficient}) {
+        this->options = good;
+        this->options.*spoilt = nan;
+        unsigned const visible = this->fitted(this->town);
+        for (int i = 0; i < 6; ++i) {
+            ShadowMap<T> const twin = this->twin(i, this->sun);
+            EXPECT_EQ((visible >> i & 1u) != 0, twin.visible);
+            EXPECT_EQ(this->maps[i].clip_from_world, twin.clip_from_world);
+            EXPECT_EQ(this->maps[i].faults.bits, twin.faults.bits);
+        }
+    }
+}
+
+TYPED_TEST(SliceWarps, OfMoreSplitsThanThereIsRoomForWriteNothing) {
+    using T = TypeParam;
+    Splits<T> many;
+    many.count = max_splits + 1;
+    ShadowMap<T> const before;
+    this->maps[0].faults = Fault::bad_region;
+    EXPECT_EQ(fit_slice_warps(this->view, this->sun, many, T(0), this->town, this->town, this->options, gl_clip,
+                              this->maps),
+              0u);
+    EXPECT_EQ(this->maps[0].faults.bits, Faults(Fault::bad_region).bits);
+    EXPECT_EQ(this->maps[1].faults.bits, before.faults.bits);
+}
+
 TYPED_TEST(SliceWarps, NameWhatIsWrong) {
     using T = TypeParam;
     constexpr T nan = std::numeric_limits<T>::quiet_NaN();
