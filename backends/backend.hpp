@@ -60,8 +60,7 @@ struct DepthPass {
     std::span<DepthLayer const> layers;  // 1 to max_maps
     bool depth_clamp = true;             // pancake casters outside [0, 1] in depth instead of clipping them
     DrawWay way = DrawWay::pass_per_map;
-    bool fitted =
-        false;  // the matrices are those of the last fit, which the CPU does not know; the layers' are not read
+    bool fitted = false;  // the matrices are the last fit's, known to the device alone; the layers' are not read
 };
 
 enum class MapChoice : std::int32_t {
@@ -98,9 +97,9 @@ struct FrameConstants {
     float map_size = 1.0f;           // texels
     float specular = 0.15f;
     float specular_power = 24.0f;
-    std::int32_t split =
-        -1;  // the map, alone and as layer 0, that is there: what reads another is left out. map_count:
-             // what reads none is drawn; -1: all are there
+    // Split by split: the map that is there, alone and as layer 0, and what reads another is left out. map_count: what
+    // reads none is drawn. -1: all maps are there.
+    std::int32_t split = -1;
     std::array<MapConstants, max_maps> maps{};
 };
 static_assert(sizeof(MapConstants) == 96 && sizeof(FrameConstants) == 64 + 7 * 16 + 2 * 16 + max_maps * 96,

@@ -112,8 +112,8 @@ private:
             double const in = 0.38 * (4 - step);
             double const top = 0.15 * (step + 1);
             double const front = z + 0.2 - in;
-            double const wide =
-                (side % 2 == 0 ? half + 0.2 - in : half + 0.2 - in - 0.38);  // corners belong to the long sides
+            // Corners belong to the long sides.
+            double const wide = side % 2 == 0 ? half + 0.2 - in : half + 0.2 - in - 0.38;
             mesh_.box({-wide, -0.5, front}, {wide, top, front + 0.40 + (step == 4 ? gallery + 1.0 : 0.0)});
         }
         mesh_.end_object();

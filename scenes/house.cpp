@@ -195,47 +195,52 @@ void add_house(MeshBuilder& mesh, Random& random, HousePlan const& plan) {
     mesh.frame = front;
 }
 
-void add_church(MeshBuilder& mesh, Random& random, int detail) {
-    Frame const front = mesh.frame;
-    Paint paint = choose_paint(random);
-    paint.wall = srgb(0xE9DAB9);
-    paint.roof = srgb(0xA9583F);
-    paint.stone = srgb(0xD2C4A6);
-    double const nave_eaves = 11.0;
+namespace {
 
+// In the wall of a nave, from x + 1.5 to x + 2.9.
+void add_pointed_window(MeshBuilder& mesh, double x) {
+    mesh.colour = srgb(0x36424D);
+    mesh.box({x + 1.5, 3.0, -0.1}, {x + 2.9, 8.2, 0.08});
+    mesh.frame = mesh.frame.moved({x + 2.2, 8.2, -0.1});
+    mesh.hexahedron({glm::dvec3(-0.7, -0.01, 0),
+                     {0.7, -0.01, 0},
+                     {-0.05, 1.1, 0},
+                     {0.05, 1.1, 0},
+                     {-0.7, -0.01, 0.18},
+                     {0.7, -0.01, 0.18},
+                     {-0.05, 1.1, 0.18},
+                     {0.05, 1.1, 0.18}});
+    mesh.frame = mesh.frame.moved({-x - 2.2, -8.2, 0.1});
+}
+
+// It slopes out toward its foot.
+void add_buttress(MeshBuilder& mesh, Paint const& paint, double x) {
+    mesh.colour = paint.stone;
+    mesh.hexahedron({glm::dvec3(x - 0.5, below_ground, -0.1),
+                     {x + 0.5, below_ground, -0.1},
+                     {x - 0.5, 9.5, -0.1},
+                     {x + 0.5, 9.5, -0.1},
+                     {x - 0.5, below_ground, 1.6},
+                     {x + 0.5, below_ground, 1.6},
+                     {x - 0.5, 7.0, 0.9},
+                     {x + 0.5, 7.0, 0.9}});
+}
+
+void add_nave(MeshBuilder& mesh, Frame const& front, Paint const& paint) {
+    double const nave_eaves = 11.0;
     mesh.frame = front.moved({0.0, 0.0, -24.0}).turned(half_pi);
     add_gabled(mesh, {15.8, 7.0, nave_eaves, 0.95, 0.5, below_ground}, paint.wall, paint.roof);
     for (double const side : {1.0, -1.0}) {
         mesh.frame = front.moved({side * 7.0, 0.0, -24.0}).turned(side * half_pi);
         for (int k = -3; k <= 3; ++k) {
             double const x = 4.4 * k;
-            mesh.colour = srgb(0x36424D);
-            if (k != 3) {
-                mesh.box({x + 1.5, 3.0, -0.1}, {x + 2.9, 8.2, 0.08});
-                mesh.frame = mesh.frame.moved({x + 2.2, 8.2, -0.1});
-                mesh.hexahedron({glm::dvec3(-0.7, -0.01, 0),
-                                 {0.7, -0.01, 0},
-                                 {-0.05, 1.1, 0},
-                                 {0.05, 1.1, 0},
-                                 {-0.7, -0.01, 0.18},
-                                 {0.7, -0.01, 0.18},
-                                 {-0.05, 1.1, 0.18},
-                                 {0.05, 1.1, 0.18}});
-                mesh.frame = mesh.frame.moved({-x - 2.2, -8.2, 0.1});
-            }
-            mesh.colour = paint.stone;  // a buttress, sloping out toward its foot
-            mesh.hexahedron({glm::dvec3(x - 0.5, below_ground, -0.1),
-                             {x + 0.5, below_ground, -0.1},
-                             {x - 0.5, 9.5, -0.1},
-                             {x + 0.5, 9.5, -0.1},
-                             {x - 0.5, below_ground, 1.6},
-                             {x + 0.5, below_ground, 1.6},
-                             {x - 0.5, 7.0, 0.9},
-                             {x + 0.5, 7.0, 0.9}});
+            if (k != 3) add_pointed_window(mesh, x);
+            add_buttress(mesh, paint, x);
         }
     }
+}
 
-    Frame const tower = front.moved({0.0, 0.0, -5.0});
+void add_tower(MeshBuilder& mesh, Frame const& tower, Paint const& paint, int detail) {
     mesh.frame = tower;
     mesh.colour = paint.wall * 0.97;
     mesh.box({-3.6, below_ground, -3.6}, {3.6, 22.0, 3.6});
@@ -253,6 +258,9 @@ void add_church(MeshBuilder& mesh, Random& random, int detail) {
             mesh.beam({-2.25, y, 3.1}, {2.25, y, 3.1}, 0.45, 0.06);
         }
     }
+}
+
+void add_spire(MeshBuilder& mesh, Frame const& tower, Paint const& paint) {
     mesh.frame = tower;
     mesh.colour = paint.stone;
     mesh.box({-3.9, 27.6, -3.9}, {3.9, 28.4, 3.9});
@@ -267,14 +275,19 @@ void add_church(MeshBuilder& mesh, Random& random, int detail) {
     mesh.colour = srgb(0xC9A94E);
     mesh.box({-0.05, 45.8, -0.05}, {0.05, 48.2, 0.05});
     mesh.box({-0.6, 47.2, -0.045}, {0.6, 47.3, 0.045});
+}
 
+void add_porch(MeshBuilder& mesh, Frame const& front, Paint const& paint) {
     mesh.frame = front;
     mesh.colour = srgb(0x5A3B28);
     mesh.box({-1.3, -0.3, -1.6}, {1.3, 3.6, -1.28});
     mesh.colour = paint.stone;
     for (int step = 0; step < 3; ++step)
         mesh.box({-2.6 - 0.4 * step, below_ground, -1.5}, {2.6 + 0.4 * step, 0.54 - 0.18 * step, -0.5 + 0.4 * step});
-    for (int side = 0; side < 4; ++side) {  // clock faces
+}
+
+void add_clock_faces(MeshBuilder& mesh, Frame const& tower) {
+    for (int side = 0; side < 4; ++side) {
         mesh.frame = tower.turned(half_pi * side);
         mesh.colour = srgb(0xEFE7D2);
         mesh.box({-1.1, 17.0, 3.5}, {1.1, 19.2, 3.7});
@@ -282,6 +295,22 @@ void add_church(MeshBuilder& mesh, Random& random, int detail) {
         mesh.box({-0.05, 18.05, 3.7}, {0.05, 18.95, 3.78});
         mesh.box({-0.05, 18.05, 3.7}, {0.62, 18.15, 3.77});
     }
+}
+
+}  // namespace
+
+void add_church(MeshBuilder& mesh, Random& random, int detail) {
+    Frame const front = mesh.frame;
+    Paint paint = choose_paint(random);
+    paint.wall = srgb(0xE9DAB9);
+    paint.roof = srgb(0xA9583F);
+    paint.stone = srgb(0xD2C4A6);
+    Frame const tower = front.moved({0.0, 0.0, -5.0});
+    add_nave(mesh, front, paint);
+    add_tower(mesh, tower, paint, detail);
+    add_spire(mesh, tower, paint);
+    add_porch(mesh, front, paint);
+    add_clock_faces(mesh, tower);
     mesh.frame = front;
 }
 

@@ -32,8 +32,9 @@
 //
 // The one place where GLM comes in, the names of its types, and the assertion.
 //
-// No more of GLM than is used: all of it takes an eighth longer to compile, and whoever wants it includes it. GLM's
-// macros may be set in any way: shadowmath calls nothing whose meaning depends on them.
+// Only what is used of GLM is included: all of it takes an eighth longer to compile. GLM's macros may be set in any
+// way, since shadowmath calls nothing whose meaning depends on them.
+//
 // To replace the assertion, put a header <shadowmath_user_config.hpp> that defines SHADOWMATH_ASSERT on the include
 // path.
 
@@ -89,7 +90,7 @@ template <class T>
 
 // ======== shadowmath/finite.hpp ========
 //
-// Is it a number, and how long is it: the two questions asked at the door of every public function.
+// Is it finite, and how long is it: the two questions that every public function asks of its input.
 //
 // NOTE: under -ffast-math compilers assume that NaN and infinity do not exist and fold std::isnan, x != x and even bit
 // tests of computed values to a constant. What survives is a look at the bits in the memory of the caller's inputs. So
@@ -2175,130 +2176,16 @@ inline void store_long(T* values, Long const& lanes) noexcept {
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/slice_edges.hpp ========
+// ======== shadowmath/view_of_box.hpp ========
 //
-// The edges of a view's slices and of a box in it, cut and bounded in light space: the inside of slices_in_scene.hpp.
+// A box as a view sees it: from the eye, every plane a little farther out, its twelve edges cut by the four sides of
+// the view. The half of slice_edges.hpp that no split has to do with.
 //
-// The corners of what a slice and a box have in common are where edges of one end, inside the other, or pass through
-// its faces. So nothing but edges is clipped, each once for all slices, four at a time:
-//
-//   four corner rays of the view     to the box, then to the depths of every slice
-//   four sides of each split plane   to the box; they belong to the slices on either side
-//   twelve edges of the box          to the four sides of the view, then to the depths of every slice
-//
-// Source: ours. Edges instead of faces, as in polytope.hpp, but none is ever new.
+// Source: ours. An edge enters the view where it goes inward through a side, and leaves it where outward.
 
 namespace shadowmath {
 inline namespace v0 {
 namespace detail {
-
-// Several vectors at a time.
-template <class L>
-struct Vectors {
-    L x, y, z;
-
-    [[gnu::always_inline]] friend Vectors operator+(Vectors const& a, Vectors const& b) noexcept {
-        return {a.x + b.x, a.y + b.y, a.z + b.z};
-    }
-    [[gnu::always_inline]] friend Vectors operator*(Vectors const& a, L const& s) noexcept {
-        return {a.x * s, a.y * s, a.z * s};
-    }
-    [[gnu::always_inline]] friend Vectors least(Vectors const& a, Vectors const& b) noexcept {
-        return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
-    }
-    [[gnu::always_inline]] friend Vectors largest(Vectors const& a, Vectors const& b) noexcept {
-        return {largest(a.x, b.x), largest(a.y, b.y), largest(a.z, b.z)};
-    }
-};
-
-template <class T>
-using FourVectors = Vectors<Lanes<T>>;
-template <class T>
-using LongVectors = Vectors<LongLanes<T>>;
-
-// Multiples of one vector.
-template <class L, class T>
-[[nodiscard, gnu::always_inline]] inline Vectors<L> times(L const& s, Vec3<T> const& v) noexcept {
-    return {s * L::all(v.x), s * L::all(v.y), s * L::all(v.z)};
-}
-
-template <class T>
-[[nodiscard, gnu::always_inline]] inline LongVectors<T> repeated(FourVectors<T> const& v) noexcept {
-    using Long = LongLanes<T>;
-    return {repeated<Long>(v.x), repeated<Long>(v.y), repeated<Long>(v.z)};
-}
-
-// Least and largest light-space coordinates of edges.
-template <class L>
-struct ExtentInLanes {
-    Vectors<L> lo;
-    Vectors<L> hi;
-
-    [[gnu::always_inline]] void add(ExtentInLanes const& other) noexcept {
-        lo = least(lo, other.lo);
-        hi = largest(hi, other.hi);
-    }
-};
-
-// Half a step along edges, and how long that is along each axis.
-template <class L>
-struct HalfStep {
-    Vectors<L> step;
-    Vectors<L> size;
-};
-
-// NOTE: no size is zero: an edge that is none must be seen on every axis.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline HalfStep<LongLanes<T>> half_of(FourVectors<T> const& step) noexcept {
-    Lanes<T> const half = all_four(T(0.5)), tiny = all_four(T(1e-18));
-    FourVectors<T> const halved = step * half;
-    auto const size = [&tiny](Lanes<T> const& a) { return absolute(a) + tiny; };
-    return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
-}
-
-// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge
-// is none.
-template <class L>
-struct CutEdges {
-    Vectors<L> origin;
-    HalfStep<L> const& half;
-    L first, last;
-
-    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept { return origin + half.step * (first + last); }
-    // Steps; of one that is none, less than nothing by more than anything can be long.
-    [[nodiscard, gnu::always_inline]] L length() const noexcept {
-        return where_at_most(first, last, last - first, L::all(typename L::Scalar(-1e37)));
-    }
-};
-
-// What edges reach: around their middle, by half their length; inside out where an edge is none.
-template <class L>
-[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(CutEdges<L> const& edges) noexcept {
-    Vectors<L> const middle = edges.middle(), reach = edges.half.size * edges.length();
-    return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
-}
-
-// Metres along edges at which they enter and leave the box between two of its faces, for edges whose origin lies
-// `shift` farther along.
-template <class L>
-struct Passage {
-    L enter, leave;
-
-    [[gnu::always_inline]] void cut(L const& shift, L& first, L& last) const noexcept {
-        first = largest(first, enter - shift);
-        last = least(last, leave - shift);
-    }
-};
-
-// Edges from `from` on; `inverse`: metres along them for one across.
-// NOTE: products before differences: one difference serves all that are parallel, and is as near as that of rounded
-// places can be.
-template <class L>
-[[nodiscard, gnu::always_inline]] inline Passage<L> passage(L const& lo, L const& hi, L const& from,
-                                                            L const& inverse) noexcept {
-    L const a = lo * inverse, b = hi * inverse, shift = from * inverse;
-    return {least(a, b) - shift, largest(a, b) - shift};
-}
 
 // A view with what it sees of a box, relative to the eye, every plane `slack` metres farther out. Side `i` of the view
 // at depth z is at `slope[i] * z + offset[i]`; left, right, bottom, top.
@@ -2440,6 +2327,136 @@ template <class T>
         store(edges.y, lit(Place<1>()));
         store(edges.z, lit(Place<2>()));
     }
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/slice_edges.hpp ========
+//
+// The edges of a view's slices and of a box in it, cut and bounded in light space: the inside of slices_in_scene.hpp.
+// What the box comes to by itself is made by view_of_box.hpp.
+//
+// The corners of what a slice and a box have in common are where edges of one end, inside the other, or pass through
+// its faces. So nothing but edges is clipped, each once for all slices, four at a time:
+//
+//   four corner rays of the view     to the box, then to the depths of every slice
+//   four sides of each split plane   to the box; they belong to the slices on either side
+//   twelve edges of the box          to the four sides of the view, then to the depths of every slice
+//
+// Source: ours. Edges instead of faces, as in polytope.hpp, but none is ever new.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Several vectors at a time.
+template <class L>
+struct Vectors {
+    L x, y, z;
+
+    [[gnu::always_inline]] friend Vectors operator+(Vectors const& a, Vectors const& b) noexcept {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    [[gnu::always_inline]] friend Vectors operator*(Vectors const& a, L const& s) noexcept {
+        return {a.x * s, a.y * s, a.z * s};
+    }
+    [[gnu::always_inline]] friend Vectors least(Vectors const& a, Vectors const& b) noexcept {
+        return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
+    }
+    [[gnu::always_inline]] friend Vectors largest(Vectors const& a, Vectors const& b) noexcept {
+        return {largest(a.x, b.x), largest(a.y, b.y), largest(a.z, b.z)};
+    }
+};
+
+template <class T>
+using FourVectors = Vectors<Lanes<T>>;
+template <class T>
+using LongVectors = Vectors<LongLanes<T>>;
+
+// Multiples of one vector.
+template <class L, class T>
+[[nodiscard, gnu::always_inline]] inline Vectors<L> times(L const& s, Vec3<T> const& v) noexcept {
+    return {s * L::all(v.x), s * L::all(v.y), s * L::all(v.z)};
+}
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline LongVectors<T> repeated(FourVectors<T> const& v) noexcept {
+    using Long = LongLanes<T>;
+    return {repeated<Long>(v.x), repeated<Long>(v.y), repeated<Long>(v.z)};
+}
+
+// Least and largest light-space coordinates of edges.
+template <class L>
+struct ExtentInLanes {
+    Vectors<L> lo;
+    Vectors<L> hi;
+
+    [[gnu::always_inline]] void add(ExtentInLanes const& other) noexcept {
+        lo = least(lo, other.lo);
+        hi = largest(hi, other.hi);
+    }
+};
+
+// Half a step along edges, and how long that is along each axis.
+template <class L>
+struct HalfStep {
+    Vectors<L> step;
+    Vectors<L> size;
+};
+
+// NOTE: no size is zero: an edge that is none must be seen on every axis.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline HalfStep<LongLanes<T>> half_of(FourVectors<T> const& step) noexcept {
+    Lanes<T> const half = all_four(T(0.5)), tiny = all_four(T(1e-18));
+    FourVectors<T> const halved = step * half;
+    auto const size = [&tiny](Lanes<T> const& a) { return absolute(a) + tiny; };
+    return {repeated<T>(halved), repeated<T>(FourVectors<T>{size(halved.x), size(halved.y), size(halved.z)})};
+}
+
+// Edges from `origin` on, cut: what is left of them is from `first` to `last` steps along. Where first > last an edge
+// is none.
+template <class L>
+struct CutEdges {
+    Vectors<L> origin;
+    HalfStep<L> const& half;
+    L first, last;
+
+    [[nodiscard, gnu::always_inline]] Vectors<L> middle() const noexcept { return origin + half.step * (first + last); }
+    // Steps; of one that is none, less than nothing by more than anything can be long.
+    [[nodiscard, gnu::always_inline]] L length() const noexcept {
+        return where_at_most(first, last, last - first, L::all(typename L::Scalar(-1e37)));
+    }
+};
+
+// What edges reach: around their middle, by half their length; inside out where an edge is none.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline ExtentInLanes<L> extent_of(CutEdges<L> const& edges) noexcept {
+    Vectors<L> const middle = edges.middle(), reach = edges.half.size * edges.length();
+    return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
+}
+
+// Metres along edges at which they enter and leave the box between two of its faces, for edges whose origin lies
+// `shift` farther along.
+template <class L>
+struct Passage {
+    L enter, leave;
+
+    [[gnu::always_inline]] void cut(L const& shift, L& first, L& last) const noexcept {
+        first = largest(first, enter - shift);
+        last = least(last, leave - shift);
+    }
+};
+
+// Edges from `from` on; `inverse`: metres along them for one across.
+// NOTE: products before differences: one difference serves all that are parallel, and is as near as that of rounded
+// places can be.
+template <class L>
+[[nodiscard, gnu::always_inline]] inline Passage<L> passage(L const& lo, L const& hi, L const& from,
+                                                            L const& inverse) noexcept {
+    L const a = lo * inverse, b = hi * inverse, shift = from * inverse;
+    return {least(a, b) - shift, largest(a, b) - shift};
 }
 
 // Least and largest coordinates of four edges in each of four slices.
@@ -3171,7 +3188,7 @@ template <class T>
 // Least and greatest depth of edges, four at a time.
 template <class T>
 struct DepthsOfEdges {
-    Lanes<T> lo, hi;
+    Lanes<T> lo = Lanes<T>::all(std::numeric_limits<T>::max()), hi = Lanes<T>::all(-std::numeric_limits<T>::max());
 
     // From depth a to depth b, where first <= last.
     [[gnu::always_inline]] void add(Lanes<T> const& a, Lanes<T> const& b, Lanes<T> const& first,
@@ -3181,46 +3198,39 @@ struct DepthsOfEdges {
     }
 };
 
-}  // namespace detail
-
-// Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
-// box will do, however large; the volume must be finite. Not visible where they do not meet.
-//
-// The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
-// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
-// is one piece: near and far end only cut it off.
+// The four sides of a volume, moved outward by what rounding may have moved them inward.
 template <class T>
-[[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
-    using Lanes = detail::Lanes<T>;
-    if (!all_finite(box) || is_empty(box)) return {};
-    auto const all = [](T value) { return Lanes::all(value); };
-    constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
-    Pose<T> const& pose = volume.pose;
-    Aabb<T> const around = merge(bounds_of(corners(volume)), pose.position);
-    // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
-    T const reach = slack * detail::largest_of(around);
-    Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
-    if (is_empty(body)) return {};
-    T const size = detail::largest_of(merge(body, pose.position)), rounding = slack * size;
-    std::array<Vec4<T>, 6> planes = detail::inner_planes(volume);
-    T wider[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-        Vec4<T>& plane = planes[i];
-        T const growth = std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z);
-        wider[i] = slack * (growth * size + std::abs(plane.w));
-        plane.w += wider[i];
+struct WidenedSides {
+    std::array<Vec4<T>, 4> planes;  // positive inside
+    T wider[4];                     // metres, plane by plane
+
+    [[gnu::always_inline]] WidenedSides(ViewVolume<T> const& volume, T const& size, T const& slack) noexcept {
+        std::array<Vec4<T>, 6> const given = inner_planes(volume);
+        for (std::size_t i = 0; i < 4; ++i) {
+            Vec4<T>& plane = planes[i];
+            plane = given[i];
+            T const growth = std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z);
+            wider[i] = slack * (growth * size + std::abs(plane.w));
+            plane.w += wider[i];
+        }
     }
+};
+
+// The twelve edges of the box between the sides, four to an axis.
+template <class T>
+[[gnu::always_inline]] inline void add_box_edges(DepthsOfEdges<T>& depths, Aabb<T> const& body,
+                                                 WidenedSides<T> const& sides, Pose<T> const& pose) noexcept {
+    using Lanes = Lanes<T>;
+    auto const all = [](T value) { return Lanes::all(value); };
     constexpr T none = std::numeric_limits<T>::max();
-    detail::DepthsOfEdges<T> depths{all(none), all(-none)};
-    // The twelve edges of the box, four to an axis: `u` and `v` are where they are on the other two.
     for (int axis = 0; axis < 3; ++axis) {
         int const next = (axis + 1) % 3, after = (axis + 2) % 3;
+        // Where the four are on the other two axes.
         Lanes const u = Lanes::of(body.lo[next], body.hi[next], body.lo[next], body.hi[next]);
         Lanes const v = Lanes::of(body.lo[after], body.lo[after], body.hi[after], body.hi[after]);
         Lanes first = all(body.lo[axis]), last = all(body.hi[axis]);
-        for (std::size_t i = 0; i < 4; ++i) {
-            Vec4<T> const& plane = planes[i];
-            T const inward = detail::not_zero(plane[axis]);
+        for (Vec4<T> const& plane : sides.planes) {
+            T const inward = not_zero(plane[axis]);
             Lanes const root = (u * all(plane[next]) + v * all(plane[after]) + all(plane.w)) * all(T(-1) / inward);
             // It enters where it goes inward, and leaves where not.
             if (inward > T(0))
@@ -3237,12 +3247,22 @@ template <class T>
         };
         depths.add(depth(first), depth(last), first, last);
     }
-    // The corner edges of the four sides: (left, bottom), (right, bottom), (right, top), (left, top).
+}
+
+// The corner edges of the four sides inside the box: (left, bottom), (right, bottom), (right, top), (left, top).
+template <class T>
+[[gnu::always_inline]] inline void add_corner_edges(DepthsOfEdges<T>& depths, Aabb<T> const& body,
+                                                    WidenedSides<T> const& sides, ViewVolume<T> const& volume,
+                                                    T const& rounding) noexcept {
+    using Lanes = Lanes<T>;
+    auto const all = [](T value) { return Lanes::all(value); };
+    constexpr T none = std::numeric_limits<T>::max();
+    Pose<T> const& pose = volume.pose;
     bool const flat = volume.kind == ViewKind::orthographic;
     Lanes const x = Lanes::of(volume.left, volume.right, volume.right, volume.left);
     Lanes const y = Lanes::of(volume.bottom, volume.bottom, volume.top, volume.top);
-    Lanes const wider_x = Lanes::of(-wider[0], wider[1], wider[1], -wider[0]);
-    Lanes const wider_y = Lanes::of(-wider[2], -wider[2], wider[3], wider[3]);
+    Lanes const wider_x = Lanes::of(-sides.wider[0], sides.wider[1], sides.wider[1], -sides.wider[0]);
+    Lanes const wider_y = Lanes::of(-sides.wider[2], -sides.wider[2], sides.wider[3], sides.wider[3]);
     // Those of a perspective begin at the eye.
     Lanes first = all(flat ? -none : T(0)), last = all(none);
     for (int axis = 0; axis < 3; ++axis) {
@@ -3259,13 +3279,38 @@ template <class T>
         last = least(last, largest(a, b));
     }
     depths.add(first, last, first, last);
+}
+
+}  // namespace detail
+
+// Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
+// box will do, however large; the volume must be finite. Not visible where they do not meet.
+//
+// The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
+// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
+// is one piece: near and far end only cut it off.
+template <class T>
+[[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
+    if (!all_finite(box) || is_empty(box)) return {};
+    constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
+    Vec3<T> const& eye = volume.pose.position;
+    Aabb<T> const around = merge(bounds_of(corners(volume)), eye);
+    // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
+    T const reach = slack * detail::largest_of(around);
+    Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
+    if (is_empty(body)) return {};
+    T const size = detail::largest_of(merge(body, eye)), rounding = slack * size;
+    detail::WidenedSides<T> const sides(volume, size, slack);
+    detail::DepthsOfEdges<T> depths;
+    detail::add_box_edges(depths, body, sides, volume.pose);
+    detail::add_corner_edges(depths, body, sides, volume, rounding);
     T lo = depths.lo[0], hi = depths.hi[0];
     for (int i = 1; i < 4; ++i) {
         lo = depths.lo[i] < lo ? depths.lo[i] : lo;
         hi = depths.hi[i] > hi ? depths.hi[i] : hi;
     }
     // The eye, where the sides of a perspective meet: a flat box through it holds that and none of their edges.
-    if (!flat && contains(Aabb<T>{body.lo - rounding, body.hi + rounding}, pose.position)) {
+    if (volume.kind == ViewKind::perspective && contains(Aabb<T>{body.lo - rounding, body.hi + rounding}, eye)) {
         lo = std::fmin(lo, T(0));
         hi = std::fmax(hi, T(0));
     }
@@ -3323,24 +3368,20 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/projected_bounds.hpp ========
+// ======== shadowmath/bounds_of_body.hpp ========
 //
-// What a matrix makes of bodies: the bounds in NDC of one, or of a hundred thousand boxes together, clipped before the
-// divide. The rectangle of a map that receivers or casters need (region.hpp).
+// Bounds in NDC of one convex body, clipped before the divide: the inside of projected_bounds.hpp, which says what it
+// promises.
 //
-// Any matrix will do. Source: ours; boxes as in culling.hpp, a corner is X + Y + Z.
+// Source: ours. Edges cut at w_min, without a polygon.
 
 namespace shadowmath {
 inline namespace v0 {
+namespace detail {
 
-// Bounds in NDC of the part of a convex body at w >= w_min; empty when nothing is left, or an input is not finite. The
-// body is given by eight corners whose indices differ in one bit along an edge, as those of a box or a view volume.
-// Every point of the body at w >= w_min lies inside, to rounding, for any matrix and for boxes of +-FLT_MAX: the
-// twelve edges are cut at w_min before anything is divided. A w_min that is not positive becomes the least one whose
-// quotients still mean something: epsilon times the largest w.
 template <class T>
-[[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, std::array<Vec3<T>, 8> const& corners,
-                                              T w_min) noexcept {
+[[nodiscard]] inline Aabb<T> bounds_of_body(Mat4<T> const& clip_from_world, std::array<Vec3<T>, 8> const& corners,
+                                            T w_min) noexcept {
     if (!all_finite(clip_from_world) || !all_finite(&w_min, 1)) return {};
     T entry = T(0);
     for (int column = 0; column < 4; ++column)
@@ -3385,6 +3426,18 @@ template <class T>
     return bounds;
 }
 
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/bounds_of_boxes.hpp ========
+//
+// Bounds in NDC of many boxes together, sixteen at a time: the inside of projected_bounds.hpp.
+//
+// Source: ours. A corner is X + Y + Z, as in culling.hpp; whether a box reaches beyond what is known needs no quotient.
+
+namespace shadowmath {
+inline namespace v0 {
 namespace detail {
 
 inline constexpr int bodies_at_once = 16;
@@ -3410,11 +3463,11 @@ struct BoundsInBlocks {
     }
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
-        for (int r = 0; r < 3; ++r)
-            for (int i = 0; i < n; ++i) {
-                all.lo[r] = less(all.lo[r], lo[r][i]);
-                all.hi[r] = more(all.hi[r], hi[r][i]);
-            }
+        for (int r = 0; r < 3; ++r) {
+            T least = none, most = -none;
+            for (int i = 0; i < n; ++i) least = less(least, lo[r][i]), most = more(most, hi[r][i]);
+            all.lo[r] = least, all.hi[r] = most;
+        }
         return all;
     }
 };
@@ -3436,16 +3489,53 @@ struct EndProducts {
     }
 };
 
-// Bounds of whole blocks of boxes; projected_bounds below prepares the matrix.
+// Points of one box after another, four at a time: least and largest NDC of those that count, which have nothing
+// lacking.
+template <class T>
+struct BoundsInLanes {
+    using Four = Lanes<T>;
+    static constexpr T none = std::numeric_limits<T>::max();
+    Four lo[3] = {all_four(none), all_four(none), all_four(none)};
+    Four hi[3] = {all_four(-none), all_four(-none), all_four(-none)};
+
+    [[gnu::always_inline]] void add(Four const& x, Four const& y, Four const& z, Four const& per_w,
+                                    Four const& lacking) noexcept {
+        add(0, x * per_w, lacking), add(1, y * per_w, lacking), add(2, z * per_w, lacking);
+    }
+    [[gnu::always_inline]] void add(int r, Four const& ndc, Four const& lacking) noexcept {
+        Four const zero = all_four(T(0));
+        lo[r] = least(where_at_most(lacking, zero, ndc, all_four(none)), lo[r]);
+        hi[r] = largest(where_at_most(lacking, zero, ndc, all_four(-none)), hi[r]);
+    }
+    // Numbers that are too large for the type are the largest.
+    [[nodiscard]] Aabb<T> merged() const noexcept {
+        Aabb<T> all;
+        for (int r = 0; r < 3; ++r)
+            for (int k = 0; k < 4; ++k) {
+                all.lo[r] = glm::min(all.lo[r], glm::max(lo[r][k], -none));
+                all.hi[r] = glm::max(all.hi[r], glm::min(hi[r][k], none));
+            }
+        return all;
+    }
+};
+
+// Bounds of boxes, block by block, under a matrix that projected_bounds.hpp has prepared.
 template <class T>
 struct BoundsOfBoxes {
     Mat4<T> const& matrix;
+    Vec4<T> const (&rows)[4];  // of the matrix
     T w_min;
     BoxArrays<T> const& boxes;
-    int blocks;
+    int count;  // a block and more
     Aabb<T>& bounds;
 
     static constexpr int n = bodies_at_once;
+
+    [[nodiscard, gnu::always_inline]] int blocks() const noexcept { return (count + n - 1) / n; }
+    // The last block has some boxes of the one before once more, which changes nothing.
+    [[nodiscard, gnu::always_inline]] int begin_of(int block) const noexcept {
+        return block * n + n <= count ? block * n : count - n;
+    }
 
     // What a block of boxes is: all in order and in reach, or some empty, or some that no product can be made of.
     enum class Kind { all_full, some_empty, beyond_reach };
@@ -3455,11 +3545,14 @@ struct BoundsOfBoxes {
         return std::abs(at.lo_x[i]) + std::abs(at.hi_x[i]) + std::abs(at.lo_y[i]) + std::abs(at.hi_y[i]) +
                std::abs(at.lo_z[i]) + std::abs(at.hi_z[i]);
     }
-    [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at,
-                                               std::uint32_t (&taken)[bodies_at_once]) noexcept {
+    [[gnu::always_inline]] static Kind kind_of(BoxArrays<T> const& at, std::uint32_t (&taken)[bodies_at_once],
+                                               T (&size)[bodies_at_once]) noexcept {
         decltype(beyond_reach(T(0))) beyond = 0;
         std::uint32_t all_taken = ~0u;
-        for (int i = 0; i < n; ++i) beyond |= beyond_reach(size_of(at, i));
+        for (int i = 0; i < n; ++i) {
+            size[i] = size_of(at, i);
+            beyond |= beyond_reach(size[i]);
+        }
         if (beyond >> (8 * sizeof beyond - 1) != 0) return Kind::beyond_reach;
         for (int i = 0; i < n; ++i) {
             taken[i] = full(at, i) ? ~0u : 0u;
@@ -3476,16 +3569,16 @@ struct BoundsOfBoxes {
     [[gnu::always_inline]] void affine() const noexcept {
         BoundsInBlocks<T> so_far;
         std::uint32_t taken[bodies_at_once];
-        T least[bodies_at_once], most[bodies_at_once];
-        for (int block = 0; block < blocks; ++block) {
-            BoxArrays<T> const at = boxes_from(boxes, block * n);
-            Kind const kind = kind_of(at, taken);
+        T size[bodies_at_once], least[bodies_at_once], most[bodies_at_once];
+        for (int block = 0; block < blocks(); ++block) {
+            BoxArrays<T> const at = boxes_from(boxes, begin_of(block));
+            Kind const kind = kind_of(at, taken, size);
             if (kind == Kind::beyond_reach) {
                 one_by_one(at);
                 continue;
             }
             for (int r = 0; r < 3; ++r) {
-                Vec3<T> const above(row(matrix, r));
+                Vec3<T> const above(rows[r]);
                 T const *const x0 = above.x > T(0) ? at.lo_x : at.hi_x, *const x1 = above.x > T(0) ? at.hi_x : at.lo_x;
                 T const *const y0 = above.y > T(0) ? at.lo_y : at.hi_y, *const y1 = above.y > T(0) ? at.hi_y : at.lo_y;
                 T const *const z0 = above.z > T(0) ? at.lo_z : at.hi_z, *const z1 = above.z > T(0) ? at.hi_z : at.lo_z;
@@ -3511,21 +3604,38 @@ struct BoundsOfBoxes {
             bounds = merge(bounds, Aabb<T>{(merged.lo + offset) / matrix[3][3], (merged.hi + offset) / matrix[3][3]});
     }
 
+    // Of each box of a block the corner that is farthest along a row, or nearest: a matter of the row's signs.
+    struct Ends {
+        T const *x, *y, *z;
+
+        [[gnu::always_inline]] Ends from(int begin) const noexcept { return {x + begin, y + begin, z + begin}; }
+        // In the order of EndProducts.
+        [[gnu::always_inline]] T along(Vec4<T> const& row, int i) const noexcept {
+            return (row.x * x[i] + row.y * y[i]) + (row.z * z[i] + row.w);
+        }
+    };
+    [[gnu::always_inline]] static Ends ends_of(BoxArrays<T> const& at, Vec4<T> const& row, bool farthest) noexcept {
+        return {(row.x > T(0)) == farthest ? at.hi_x : at.lo_x, (row.y > T(0)) == farthest ? at.hi_y : at.lo_y,
+                (row.z > T(0)) == farthest ? at.hi_z : at.lo_z};
+    }
+
     // A side of what is known: a box does not reach beyond x / w = h where x - h w, which is linear, is negative at its
     // farthest corner. No quotient is needed for that.
     struct Side {
         T x, y, z, offset;
-        T growth;               // by what the rounding of a quotient can make of it, for every metre of `size`
-        bool hi_x, hi_y, hi_z;  // where the farthest corner is
+        Ends farthest;  // of all boxes
+        T growth;       // by what the rounding of a quotient can make of it, for every metre of `size`
     };
-    void take_sides(Aabb<T> const& known, Side (&sides)[6]) const noexcept {
+    // False where nothing is known.
+    bool take_sides(Aabb<T> const& known, Side (&sides)[6]) const noexcept {
+        if (is_empty(known)) return false;
         auto const magnitude = [](Vec4<T> const& v) {
             return glm::max(glm::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
         };
         constexpr T unsure = T(16) * std::numeric_limits<T>::epsilon();
-        Vec4<T> const below = row(matrix, 3);
+        Vec4<T> const below = rows[3];
         for (int i = 0; i < 6; ++i) {
-            Vec4<T> const above = row(matrix, i / 2);
+            Vec4<T> const above = rows[i / 2];
             T const h = i % 2 == 0 ? known.lo[i / 2] : known.hi[i / 2], further = std::abs(h);
             Vec4<T> const beyond = (above - below * h) * (i % 2 == 0 ? T(-1) : T(1));
             T const offset = beyond.w + unsure * (std::abs(above.w) + further * std::abs(below.w));
@@ -3533,121 +3643,119 @@ struct BoundsOfBoxes {
                         beyond.y,
                         beyond.z,
                         offset,
-                        unsure * (magnitude(above) + further * magnitude(below)),
-                        beyond.x > T(0),
-                        beyond.y > T(0),
-                        beyond.z > T(0)};
+                        ends_of(boxes, beyond, true),
+                        unsure * (magnitude(above) + further * magnitude(below))};
         }
+        return true;
     }
     // Whether a box of the block that is `taken` may reach beyond a side.
-    [[gnu::always_inline]] bool may_extend(Side const (&sides)[6], BoxArrays<T> const& at,
+    [[gnu::always_inline]] bool may_extend(Side const (&sides)[6], int begin, T const (&size)[bodies_at_once],
                                            std::uint32_t const (&taken)[bodies_at_once]) const noexcept {
-        T size[bodies_at_once];
-        for (int i = 0; i < n; ++i) size[i] = size_of(at, i);
-        for (Side const& side : sides) {
-            T const* const x = side.hi_x ? at.hi_x : at.lo_x;
-            T const* const y = side.hi_y ? at.hi_y : at.lo_y;
-            T const* const z = side.hi_z ? at.hi_z : at.lo_z;
-            T const a = side.x, b = side.y, c = side.z, growth = side.growth, offset = side.offset;
+        for (int r = 0; r < 3; ++r) {
+            Vec4<T> const below(sides[2 * r].x, sides[2 * r].y, sides[2 * r].z, sides[2 * r].offset);
+            Vec4<T> const above(sides[2 * r + 1].x, sides[2 * r + 1].y, sides[2 * r + 1].z, sides[2 * r + 1].offset);
+            Ends const lower = sides[2 * r].farthest.from(begin), upper = sides[2 * r + 1].farthest.from(begin);
+            T const lo_growth = sides[2 * r].growth, hi_growth = sides[2 * r + 1].growth;
             std::uint32_t may = 0;
+            // NOTE: what is no number may.
             for (int i = 0; i < n; ++i) {
-                T const beyond = a * x[i] + b * y[i] + c * z[i] + (growth * size[i] + offset);
-                may |= beyond > T(0) ? taken[i] : 0u;
+                std::uint32_t const inside_lo = lower.along(below, i) + lo_growth * size[i] <= T(0) ? ~0u : 0u;
+                std::uint32_t const inside_hi = upper.along(above, i) + hi_growth * size[i] <= T(0) ? ~0u : 0u;
+                may |= taken[i] & ~(inside_lo & inside_hi);
             }
             if (may != 0) return true;
         }
         return false;
     }
 
+    // Which of a block's boxes are wholly at w >= w_min, and which but partly; false where none is the latter.
+    [[gnu::always_inline]] bool sort(Ends const& least, Ends const& most, std::uint32_t (&taken)[bodies_at_once],
+                                     std::uint32_t (&astride)[bodies_at_once]) const noexcept {
+        Vec4<T> const below = rows[3];
+        std::uint32_t any_astride = 0;
+        for (int i = 0; i < n; ++i) {
+            std::uint32_t const in_front = least.along(below, i) >= w_min ? ~0u : 0u;
+            std::uint32_t const reaches = most.along(below, i) >= w_min ? ~0u : 0u;
+            astride[i] = taken[i] & reaches & ~in_front;
+            taken[i] &= in_front;
+            any_astride |= astride[i];
+        }
+        return any_astride != 0;
+    }
+
+    [[gnu::always_inline]] void add_all_corners(BoxArrays<T> const& at, std::uint32_t const (&taken)[bodies_at_once],
+                                                BoundsInBlocks<T>& so_far) const noexcept {
+        T inverse[8][bodies_at_once], away[bodies_at_once];
+        Vec4<T> const below = rows[3];
+        for (int i = 0; i < n; ++i) {
+            EndProducts<T> const w(below, at, i);
+            T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
+            // Corners that do not count may be at w = 0 itself; of those that do this changes none.
+            auto const over = [this](T corner_w) { return T(1) / (corner_w > w_min ? corner_w : w_min); };
+            inverse[0][i] = over(xy00 + w.z0), inverse[1][i] = over(xy10 + w.z0);
+            inverse[2][i] = over(xy01 + w.z0), inverse[3][i] = over(xy11 + w.z0);
+            inverse[4][i] = over(xy00 + w.z1), inverse[5][i] = over(xy10 + w.z1);
+            inverse[6][i] = over(xy01 + w.z1), inverse[7][i] = over(xy11 + w.z1);
+            away[i] = taken[i] != 0 ? T(0) : so_far.none;
+        }
+        for (int r = 0; r < 3; ++r) {
+            Vec4<T> const above = rows[r];
+            for (int i = 0; i < n; ++i) {
+                EndProducts<T> const p(above, at, i);
+                T const xy00 = p.x0 + p.y0, xy10 = p.x1 + p.y0, xy01 = p.x0 + p.y1, xy11 = p.x1 + p.y1;
+                T const a = (xy00 + p.z0) * inverse[0][i], b = (xy10 + p.z0) * inverse[1][i];
+                T const c = (xy01 + p.z0) * inverse[2][i], d = (xy11 + p.z0) * inverse[3][i];
+                T const e = (xy00 + p.z1) * inverse[4][i], f = (xy10 + p.z1) * inverse[5][i];
+                T const g = (xy01 + p.z1) * inverse[6][i], h = (xy11 + p.z1) * inverse[7][i];
+                auto const less = [](T s, T t) { return BoundsInBlocks<T>::less(s, t); };
+                auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
+                T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
+                T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
+                so_far.add(r, i, away[i], least, most);
+            }
+        }
+    }
+
     [[gnu::always_inline]] void perspective() const noexcept {
         BoundsInBlocks<T> so_far;
-        // Of what is known after the first 64 blocks, and after 128, 256, ... It does not pay sooner.
         Side sides[6];
-        T inverse[8][bodies_at_once];
-        std::uint32_t taken[bodies_at_once], astride[bodies_at_once];  // all of it at w >= w_min; a part of it
-        for (int block = 0; block < blocks; ++block) {
-            BoxArrays<T> const at = boxes_from(boxes, block * n);
-            if (kind_of(at, taken) == Kind::beyond_reach) {
+        std::uint32_t taken[bodies_at_once], astride[bodies_at_once];
+        Ends const nearest = ends_of(boxes, rows[3], false), farthest = ends_of(boxes, rows[3], true);
+        T size[bodies_at_once];
+        BoundsInLanes<T> of_astride;
+        bool known = false;
+        for (int block = 0; block < blocks(); ++block) {
+            int const begin = begin_of(block);
+            BoxArrays<T> const at = boxes_from(boxes, begin);
+            if (kind_of(at, taken, size) == Kind::beyond_reach) {
                 one_by_one(at);
                 continue;
             }
-            std::uint32_t any_astride = 0;
-            Vec4<T> const below = row(matrix, 3);
-            for (int i = 0; i < n; ++i) {
-                EndProducts<T> const w(below, at, i);
-                T const least = w.least(), most = w.most();
-                std::uint32_t const in_front = least >= w_min ? ~0u : 0u, reaches = most >= w_min ? ~0u : 0u;
-                astride[i] = taken[i] & reaches & ~in_front;
-                taken[i] &= in_front;
-                any_astride |= astride[i];
-                T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
-                // Corners that do not count may be at w = 0 itself; of those that do this changes none.
-                auto const over = [this](T corner_w) { return T(1) / (corner_w > w_min ? corner_w : w_min); };
-                inverse[0][i] = over(xy00 + w.z0), inverse[1][i] = over(xy10 + w.z0);
-                inverse[2][i] = over(xy01 + w.z0), inverse[3][i] = over(xy11 + w.z0);
-                inverse[4][i] = over(xy00 + w.z1), inverse[5][i] = over(xy10 + w.z1);
-                inverse[6][i] = over(xy01 + w.z1), inverse[7][i] = over(xy11 + w.z1);
-            }
-            if (any_astride != 0)
+            if (sort(nearest.from(begin), farthest.from(begin), taken, astride))
                 for (int i = 0; i < n; ++i)
-                    if (astride[i] != 0) add_astride(at, i);
-            if (block >= 64) {
-                if ((block & (block - 1)) == 0) take_sides(merge(bounds, so_far.merged()), sides);
-                if (!may_extend(sides, at, taken)) continue;
-            }
-            T away[bodies_at_once];
-            for (int i = 0; i < n; ++i) away[i] = taken[i] != 0 ? T(0) : so_far.none;
-            for (int r = 0; r < 3; ++r) {
-                Vec4<T> const above = row(matrix, r);
-                for (int i = 0; i < n; ++i) {
-                    EndProducts<T> const p(above, at, i);
-                    T const xy00 = p.x0 + p.y0, xy10 = p.x1 + p.y0, xy01 = p.x0 + p.y1, xy11 = p.x1 + p.y1;
-                    T const a = (xy00 + p.z0) * inverse[0][i], b = (xy10 + p.z0) * inverse[1][i];
-                    T const c = (xy01 + p.z0) * inverse[2][i], d = (xy11 + p.z0) * inverse[3][i];
-                    T const e = (xy00 + p.z1) * inverse[4][i], f = (xy10 + p.z1) * inverse[5][i];
-                    T const g = (xy01 + p.z1) * inverse[6][i], h = (xy11 + p.z1) * inverse[7][i];
-                    auto const less = [](T s, T t) { return BoundsInBlocks<T>::less(s, t); };
-                    auto const more = [](T s, T t) { return BoundsInBlocks<T>::more(s, t); };
-                    T const least = less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)));
-                    T const most = more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)));
-                    so_far.add(r, i, away[i], least, most);
-                }
-            }
+                    if (astride[i] != 0) add_astride(at, i, of_astride);
+            // It does not pay sooner, nor to look more often.
+            if (block >= 16 && (block & (block - 1)) == 0)
+                known = take_sides(merge(bounds, merge(of_astride.merged(), so_far.merged())), sides);
+            if (known && !may_extend(sides, begin, size, taken)) continue;
+            add_all_corners(at, taken, so_far);
         }
-        bounds = merge(bounds, so_far.merged());
+        bounds = merge(bounds, merge(of_astride.merged(), so_far.merged()));
     }
 
-    // Points of one box, four at a time: least and largest NDC of those that count, which have nothing lacking.
-    struct BoundsInLanes {
-        using Four = Lanes<T>;
-        Four lo[3] = {Four::all(none), Four::all(none), Four::all(none)};
-        Four hi[3] = {Four::all(-none), Four::all(-none), Four::all(-none)};
-        static constexpr T none = std::numeric_limits<T>::max();
-
-        [[gnu::always_inline]] void add(Four const (&point)[3], Four const& per_w, Four const& lacking) noexcept {
-            Four const zero = Four::all(T(0));
-            for (int r = 0; r < 3; ++r) {
-                Four const ndc = point[r] * per_w;
-                lo[r] = least(where_at_most(lacking, zero, ndc, Four::all(none)), lo[r]);
-                hi[r] = largest(where_at_most(lacking, zero, ndc, Four::all(-none)), hi[r]);
-            }
-        }
-    };
-
     // A box in reach that is partly at w < w_min: its corners in front of that, and where its edges pass through it.
-    [[gnu::always_inline]] void add_astride(BoxArrays<T> const& at, int i) const noexcept {
+    [[gnu::always_inline]] void add_astride(BoxArrays<T> const& at, int i, BoundsInLanes<T>& of) const noexcept {
         using Four = Lanes<T>;
-        Four const zero = Four::all(T(0)), one = Four::all(T(1)), least_w = Four::all(w_min);
+        Four const zero = Four::all(T(0)), one = Four::all(T(1)), least_w = Four::all(w_min), per_w = one / least_w;
         Four lower[4], upper[4];  // rows of the corners at either end of z: x grows first, then y
         for (int r = 0; r < 4; ++r) {
-            EndProducts<T> const p(row(matrix, r), at, i);
+            EndProducts<T> const p(rows[r], at, i);
             Four const xy = Four::of(p.x0, p.x1, p.x0, p.x1) + Four::of(p.y0, p.y0, p.y1, p.y1);
             lower[r] = xy + Four::all(p.z0), upper[r] = xy + Four::all(p.z1);
         }
-        BoundsInLanes in_lanes;
         auto const add_corners = [&](Four const(&corner)[4]) {
-            in_lanes.add({corner[0], corner[1], corner[2]}, one / largest(corner[3], least_w),
-                         where_at_most(least_w, corner[3], zero, one));
+            of.add(corner[0], corner[1], corner[2], one / largest(corner[3], least_w),
+                   where_at_most(least_w, corner[3], zero, one));
         };
         add_corners(lower), add_corners(upper);
         auto const add_edges = [&](Four const(&from)[4], Four const(&to)[4]) {
@@ -3657,8 +3765,7 @@ struct BoundsOfBoxes {
             // Of an edge that does not pass through: its beginning.
             Four const t = where_at_most(lacking, zero, above, zero) / where_at_most(lacking, zero, above - other, one),
                        rest = one - t;
-            in_lanes.add({from[0] * rest + to[0] * t, from[1] * rest + to[1] * t, from[2] * rest + to[2] * t},
-                         one / least_w, lacking);
+            of.add(from[0] * rest + to[0] * t, from[1] * rest + to[1] * t, from[2] * rest + to[2] * t, per_w, lacking);
         };
         Four x_from[4], x_to[4], y_from[4], y_to[4];
         for (int r = 0; r < 4; ++r) {
@@ -3666,22 +3773,13 @@ struct BoundsOfBoxes {
             y_from[r] = picked<0, 1, 4, 5>(lower[r], upper[r]), y_to[r] = picked<2, 3, 6, 7>(lower[r], upper[r]);
         }
         add_edges(x_from, x_to), add_edges(y_from, y_to), add_edges(lower, upper);
-        // Numbers that are too large for the type are the largest.
-        constexpr T largest_number = std::numeric_limits<T>::max();
-        for (int r = 0; r < 3; ++r)
-            for (int k = 0; k < 4; ++k) {
-                T const lo = in_lanes.lo[r][k], hi = in_lanes.hi[r][k];
-                bounds.lo[r] = BoundsInBlocks<T>::less(BoundsInBlocks<T>::more(lo, -largest_number), bounds.lo[r]);
-                bounds.hi[r] = BoundsInBlocks<T>::more(BoundsInBlocks<T>::less(hi, largest_number), bounds.hi[r]);
-            }
     }
 
     // Whatever they are.
     void one_by_one(BoxArrays<T> const& at) const noexcept {
         for (int i = 0; i < n; ++i) {
             Aabb<T> const box = box_at(at, i);
-            if (all_finite(box) && !is_empty(box))
-                bounds = merge(bounds, projected_bounds(matrix, corners(box), w_min));
+            if (all_finite(box) && !is_empty(box)) bounds = merge(bounds, bounds_of_body(matrix, corners(box), w_min));
         }
     }
 
@@ -3695,6 +3793,29 @@ struct BoundsOfBoxes {
 };
 
 }  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/projected_bounds.hpp ========
+//
+// What a matrix makes of bodies: the bounds in NDC of one, or of a hundred thousand boxes together, clipped before the
+// divide. The rectangle of a map that receivers or casters need (region.hpp).
+//
+// Any matrix will do. Source: ours; boxes as in culling.hpp, a corner is X + Y + Z.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Bounds in NDC of the part of a convex body at w >= w_min; empty when nothing is left, or an input is not finite. The
+// body is given by eight corners whose indices differ in one bit along an edge, as those of a box or a view volume.
+// Every point of the body at w >= w_min lies inside, to rounding, for any matrix and for boxes of +-FLT_MAX: the
+// twelve edges are cut at w_min before anything is divided. A w_min that is not positive becomes the least one whose
+// quotients still mean something: epsilon times the largest w.
+template <class T>
+[[nodiscard]] inline Aabb<T> projected_bounds(Mat4<T> const& clip_from_world, std::array<Vec3<T>, 8> const& corners,
+                                              T w_min) noexcept {
+    return detail::bounds_of_body(clip_from_world, corners, w_min);
+}
 
 // The bounds of many boxes together: what projected_bounds of each, merged, would give, to rounding; a box that is
 // empty or not finite adds nothing. Fast where w_min is positive, or the matrix affine; otherwise box by box.
@@ -3710,17 +3831,17 @@ template <class T>
     bool const flat = m[0][3] == T(0) && m[1][3] == T(0) && m[2][3] == T(0);
     bool const ordinary = entry <= T(1e15) && (flat ? m[3][3] >= T(1e-15) && m[3][3] >= w_min : w_min >= T(1e-15));
     constexpr int n = detail::bodies_at_once;
-    int const whole = ordinary && count > 0 ? count / n * n : 0;
-    if (whole > 0) detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, boxes, whole / n, bounds});
-    if (ordinary && count > whole) {
-        // What is left of a block, filled up with copies of its first box, which change nothing.
+    if (ordinary && count > 0) {
+        Vec4<T> const rows[4] = {row(m, 0), row(m, 1), row(m, 2), row(m, 3)};
+        // Fewer than a block are filled up with copies of the first, which change nothing.
         T ends[6][n];
-        for (int i = 0; i < n; ++i) {
-            Aabb<T> const box = box_at(boxes, whole + i < count ? whole + i : whole);
+        BoxArrays<T> const padded{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
+        for (int i = 0; i < n && count < n; ++i) {
+            Aabb<T> const box = box_at(boxes, i < count ? i : 0);
             for (int axis = 0; axis < 3; ++axis) ends[axis][i] = box.lo[axis], ends[axis + 3][i] = box.hi[axis];
         }
-        BoxArrays<T> const rest{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
-        detail::run_widely(detail::BoundsOfBoxes<T>{m, w_min, rest, 1, bounds});
+        detail::run_widely(
+            detail::BoundsOfBoxes<T>{m, rows, w_min, count < n ? padded : boxes, count < n ? n : count, bounds});
     }
     for (int i = ordinary ? count : 0; i < count; ++i) {
         Aabb<T> const box = box_at(boxes, i);
@@ -4001,10 +4122,8 @@ template <class T>
 //      +---+---+---+---+    axis   +x  -x  +y  -y  +z  -z       of the world
 //      |-x |+z |+x |-z |
 //      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D
-// ones
-//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces.
-// They
-//          +---+            are not the layers of a cube texture: those cannot be zoomed in on.
+//          |-y |            ones for tiles of an atlas, each with its own margin, so that filters see no seams between
+//          +---+            faces; not layers of a cube texture, which cannot be zoomed in on.
 //
 // Source: six perspective faces are common knowledge; the crop is that of fit_spot.
 
@@ -4242,6 +4361,7 @@ template <class T>
 //     |/  body \|                     h = h1 (-h2 . l) + h2 (h1 . l),     so that h . l = 0:
 //      \_______/   <- unlit faces
 //                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself.
+//
 // No edge is ever measured, so short ones do no harm. Faces that meet at a knife's edge make a small sum, of which
 // rounding has its share: so only its direction is used, and the plane put where it touches the body.
 //
@@ -4459,8 +4579,8 @@ template <class T>
 
 // ======== shadowmath/fit_rectangle.hpp ========
 //
-// The smallest rectangle around a body as the light sees it, at whatever angle: never more texels than fit_box, a
-// quarter fewer over a view frustum in the mean. As with fit_box, size and place change as the camera turns, and
+// The smallest rectangle around a body as the light sees it, at whatever angle: never larger than fit_box, and a
+// quarter smaller on average around a view frustum. As with fit_box, size and place change as the camera turns, and
 // edges crawl; use it where fit_box would do.
 //
 //    ___________         A least rectangle has a side along an edge of the hull (Freeman and Shapira 1975). The hull's
@@ -4947,7 +5067,8 @@ template <class T>
 
 // ======== shadowmath/culling.hpp ========
 //
-// Which maps an object must be drawn into: a bit for each, and the range [first, last] that one instanced draw covers.
+// Which maps an object must be drawn into: a bit for each map, and the range [first, last] that one instanced draw
+// covers.
 //
 //        light              A caster counts for a map when it reaches into the shaft of light that ends in the map:
 //     |  A |                between its four sides, before its far end, and as far toward the light as you like.
@@ -5299,7 +5420,7 @@ inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, i
 // ======== shadowmath/shafts_of_light.hpp ========
 //
 // Where the light that warped maps get first meets the casters' box, four maps at a time: where their depth begins. The
-// inside of slice_warps.hpp; what depth_range.hpp is for sides that are parallel.
+// inside of four_warps.hpp; what depth_range.hpp is for sides that are parallel.
 //
 // Source: ours.
 
@@ -5467,9 +5588,9 @@ struct LightOnBox {
 // not.
 //
 // Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in the papers
-// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole of the map
-// is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
-// of the light. From the papers: every warp is fitted anew after it, and fades with the same angle.
+// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole map is filled, depth is not
+// clipped, the centre of projection is free of the camera, and the strength follows the angle of the light. From the
+// papers: the warped view is fitted anew, and every warp fades with the same angle.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -5686,20 +5807,163 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/slice_warps.hpp ========
+// ======== shadowmath/warped_edges.hpp ========
 //
-// All slices of a view at once, each cut down to the receivers and warped (warp.hpp): what simple_perspective_map gives
-// for each slice, some forty times as fast. For cascades under a low sun; fit_cascades calls it for CascadeFit::warped.
+// The edges of slices and box (slice_edges.hpp), kept until a warp is known, and then seen behind it: what warps are
+// fitted to, without a polygon. The inside of four_warps.hpp.
+//
+// Source: ours. An edge stays one under x / w: its ends bound it, as long as w > 0.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// Farther than anything is.
+template <class T>
+inline constexpr T far_away = T(1e37);
+
+// Edges of four slices, four to a slice, as they are kept until the warp is known.
+template <class T>
+struct KeptEdges {
+    using Four = Lanes<T>;
+    using Long = LongLanes<T>;
+    enum Group { near_sides, far_sides, rays, of_box, groups = of_box + 3 };
+    T x[groups][16], y[groups][16], along[groups][16];  // of their middles, relative to the eye
+    T length[groups][16];                               // in steps; negative where an edge is none
+
+    // Keeps those of slices from i on, and says what they reach and how near it comes to the eye.
+    // NOTE: no loop: compilers would keep what it needs in registers that they have not.
+    template <int i = 0>
+    [[gnu::always_inline]] void keep_all(ViewOfBox<T> const& seen, EdgesInLight<T> const& edges, ExtentsOfSlices<T>& of,
+                                         T (&nearest)[16]) noexcept {
+        Long const nothing = Long::all(far_away<T>);
+        Long const at_near = spread<Long>(edges.nearest, i), at_far = spread<Long>(edges.farthest, i);
+        Reach reach;
+        reach.extent = keep(near_sides, i, edges.sides_at(at_near));
+        reach.ahead = where_at_most(Long::all(T(0)), at(length, near_sides, i), at_near, nothing);
+        reach.extent.add(keep(far_sides, i, edges.sides_at(at_far)));
+        CutEdges<Long> const cut_rays = edges.rays_in(i);
+        reach.extent.add(keep(rays, i, cut_rays));
+        reach.ahead = least(reach.ahead, where_at_most(cut_rays.first, cut_rays.last, cut_rays.first, nothing));
+        keep_box_edges(seen, edges, 0, i, reach);
+        keep_box_edges(seen, edges, 1, i, reach);
+        keep_box_edges(seen, edges, 2, i, reach);
+        of.store(i, reach.extent);
+        store_long(nearest + 4 * i, reach.ahead);
+        if constexpr (i + Long::fours < 4) keep_all<i + Long::fours>(seen, edges, of, nearest);
+    }
+    struct Reach {
+        ExtentInLanes<Long> extent;
+        Long ahead;
+    };
+    [[gnu::always_inline]] void keep_box_edges(ViewOfBox<T> const& seen, EdgesInLight<T> const& edges, int axis, int i,
+                                               Reach& reach) noexcept {
+        CutEdges<Long> const cut = edges.box_edges_in(i, axis);
+        reach.extent.add(keep(of_box + axis, i, cut));
+        Long const from = repeated<Long>(four_at(edges.of_box.ahead + 4 * axis));
+        Long const growth = Long::all(not_zero(seen.pose->forward[axis]));
+        Long const depth = least((from + cut.first) * growth, (from + cut.last) * growth);
+        reach.ahead = least(reach.ahead, where_at_most(cut.first, cut.last, depth, Long::all(far_away<T>)));
+    }
+    [[gnu::always_inline]] ExtentInLanes<Long> keep(int group, int i, CutEdges<Long> const& edges) noexcept {
+        Vectors<Long> const middle = edges.middle();
+        Long const steps = edges.length();
+        store_long(x[group] + 4 * i, middle.x), store_long(y[group] + 4 * i, middle.y);
+        store_long(along[group] + 4 * i, middle.z), store_long(length[group] + 4 * i, steps);
+        Vectors<Long> const reach = edges.half.size * steps;
+        return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
+    }
+    [[nodiscard, gnu::always_inline]] Long at(T const (&of)[groups][16], int group, int i) const noexcept {
+        return long_at<Long>(of[group] + 4 * i);
+    }
+};
+
+// The ends of what was kept, behind the warp w = w_slope y + w_offset.
+template <class T>
+struct WarpedEnds {
+    using Four = Lanes<T>;
+    using Long = LongLanes<T>;
+    using Kept = KeptEdges<T>;
+    T along[Kept::groups][2][16], inverse_w[Kept::groups][2][16];
+    T lo[16], hi[16];  // x / w
+
+    struct Span {
+        Long lo, hi;
+    };
+    [[gnu::always_inline]] WarpedEnds(EdgesInLight<T> const& edges, Kept const& kept, Four const& w_slope,
+                                      Four const& w_offset) noexcept {
+        project_all(edges, kept, w_slope, w_offset);
+    }
+    template <int i = 0>
+    [[gnu::always_inline]] void project_all(EdgesInLight<T> const& edges, Kept const& kept, Four const& w_slope,
+                                            Four const& w_offset) noexcept {
+        Long const slope = spread<Long>(w_slope, i), offset = spread<Long>(w_offset, i);
+        Span span{Long::all(far_away<T>), Long::all(-far_away<T>)};
+        project(kept, Kept::near_sides, edges.along_side, i, slope, offset, span);
+        project(kept, Kept::far_sides, edges.along_side, i, slope, offset, span);
+        project(kept, Kept::rays, edges.along_ray, i, slope, offset, span);
+        project(kept, Kept::of_box, edges.along[0], i, slope, offset, span);
+        project(kept, Kept::of_box + 1, edges.along[1], i, slope, offset, span);
+        project(kept, Kept::of_box + 2, edges.along[2], i, slope, offset, span);
+        store_long(lo + 4 * i, span.lo);
+        store_long(hi + 4 * i, span.hi);
+        if constexpr (i + Long::fours < 4) project_all<i + Long::fours>(edges, kept, w_slope, w_offset);
+    }
+    [[gnu::always_inline]] void project(Kept const& kept, int group, HalfStep<Long> const& half, int i,
+                                        Long const& slope, Long const& offset, Span& span) noexcept {
+        Long const nothing = Long::all(far_away<T>), less_than_nothing = Long::all(-far_away<T>);
+        Long const zero = Long::all(T(0)), w_min = Long::all(T(0.5)), kept_length = kept.at(kept.length, group, i);
+        Long const length = largest(kept_length, Long::all(T(-1)));
+        Long const x = kept.at(kept.x, group, i), across = half.step.x * length, ahead = half.step.z * length;
+        Long const middle = where_at_most(zero, kept_length, kept.at(kept.along, group, i), less_than_nothing);
+        Long const w = kept.at(kept.y, group, i) * slope + offset, growth = half.step.y * length * slope;
+        Long const a = Long::all(T(1)) / largest(w - growth, w_min);
+        Long const b = Long::all(T(1)) / largest(w + growth, w_min);
+        Long const from = (x - across) * a, to = (x + across) * b;
+        span.lo = least(span.lo, where_at_most(zero, kept_length, least(from, to), nothing));
+        span.hi = largest(span.hi, where_at_most(zero, kept_length, largest(from, to), less_than_nothing));
+        store_long(along[group][0] + 4 * i, middle - ahead);
+        store_long(along[group][1] + 4 * i, middle + ahead);
+        store_long(inverse_w[group][0] + 4 * i, a);
+        store_long(inverse_w[group][1] + 4 * i, b);
+    }
+
+    // The largest of (depth - first) / w.
+    [[nodiscard, gnu::always_inline]] Four deepest(Four const& first) const noexcept {
+        T of_slices[16];
+        deepest_of_all(first, of_slices);
+        return largest_of(of_slices);
+    }
+    template <int i = 0>
+    [[gnu::always_inline]] void deepest_of_all(Four const& first, T (&of_slices)[16]) const noexcept {
+        Long const start = spread<Long>(first, i);
+        Long most = Long::all(-far_away<T>);
+        for (int group = 0; group < Kept::groups; ++group)
+            for (int side = 0; side < 2; ++side)
+                most = largest(most, (long_at<Long>(along[group][side] + 4 * i) - start) *
+                                         long_at<Long>(inverse_w[group][side] + 4 * i));
+        store_long(of_slices + 4 * i, most);
+        if constexpr (i + Long::fours < 4) deepest_of_all<i + Long::fours>(first, of_slices);
+    }
+};
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/four_warps.hpp ========
+//
+// Four warped maps at once, a map to a lane: the inside of slice_warps.hpp, and the twin of map_rows.hpp in lanes.
 //
 //   edges of slices and receivers    cut and bounded in light space, as slice_edges.hpp does: y and z_near say 1 / a
 //   their ends                       behind the warp, x / w: the sides of the map
 //   edges of the casters' box        between those sides, and the sides' own edges: where depth begins
 //   the ends again                   depth / w: how far it goes
 //
-// The first, second and fourth take four edges of a slice at a time, the third a slice to a lane.
+// The first, second and fourth take four edges of a slice at a time (warped_edges.hpp), the third a slice to a lane
+// (shafts_of_light.hpp).
 //
-// Source: that of warp.hpp and map_rows.hpp, of which this is the twin in lanes. Departure: every plane is 16 epsilon
-// of the view's reach farther out, since edges are bounded one by one.
+// Source: that of warp.hpp.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -5719,271 +5983,191 @@ struct WarpsOfView {
     bool flat;  // orthographic: nothing to undo
 };
 
-// Edges of four slices, four to a slice, as they are kept until the warp is known.
+// One row of four matrices, relative to the eye.
 template <class T>
-struct KeptEdges {
-    using Long = LongLanes<T>;
-    enum Group { near_sides, far_sides, rays, of_box, groups = of_box + 3 };
-    T x[groups][16], y[groups][16], along[groups][16];  // of their middles, relative to the eye
-    T length[groups][16];                               // in steps; negative where an edge is none
-
-    [[gnu::always_inline]] ExtentInLanes<Long> keep(int group, int i, CutEdges<Long> const& edges) noexcept {
-        Vectors<Long> const middle = edges.middle();
-        Long const steps = edges.length();
-        store_long(x[group] + 4 * i, middle.x), store_long(y[group] + 4 * i, middle.y);
-        store_long(along[group] + 4 * i, middle.z), store_long(length[group] + 4 * i, steps);
-        Vectors<Long> const reach = edges.half.size * steps;
-        return {{middle.x - reach.x, middle.y - reach.y, middle.z - reach.z}, middle + reach};
-    }
-    [[nodiscard, gnu::always_inline]] Long at(T const (&of)[groups][16], int group, int i) const noexcept {
-        return long_at<Long>(of[group] + 4 * i);
-    }
+struct FourRows {
+    FourVectors<T> normal;
+    Lanes<T> offset;
 };
+
+// Column by column, of all four. finite[i]: what matrix i holds.
+template <class T>
+[[gnu::always_inline]] inline void write_rows(FourRows<T> const& x, FourRows<T> const& y, FourRows<T> const& z,
+                                              FourRows<T> const& w, Vec3<T> const& eye, int count,
+                                              ShadowMap<T>* const* maps, bool (&finite)[4]) noexcept {
+    auto const moved = [&eye](FourRows<T> const& row) {
+        return row.offset -
+               (row.normal.x * all_four(eye.x) + row.normal.y * all_four(eye.y) + row.normal.z * all_four(eye.z));
+    };
+    Lanes<T> columns[4][4] = {{x.normal.x, y.normal.x, z.normal.x, w.normal.x},
+                              {x.normal.y, y.normal.y, z.normal.y, w.normal.y},
+                              {x.normal.z, y.normal.z, z.normal.z, w.normal.z},
+                              {moved(x), moved(y), moved(z), moved(w)}};
+    for (auto& column : columns) transpose(column);
+    for (int i = 0; i < count; ++i) {
+        BeyondReach<T> infinite;
+        for (int column = 0; column < 4; ++column) {
+            static_assert(sizeof columns[0][0] == sizeof maps[0]->clip_from_world[0], "columns without a gap");
+            std::memcpy(&maps[i]->clip_from_world[column].x, &columns[column][i], sizeof columns[0][0]);
+            infinite.look_for_finite(columns[column][i]);
+        }
+        finite[i] = !infinite.any();
+    }
+}
 
 // Four maps, a map to a lane; `count` of them are wanted.
 template <class T>
 struct FourWarps {
     using Four = Lanes<T>;
-    using Long = LongLanes<T>;
-    using Kept = KeptEdges<T>;
+    using Row = FourRows<T>;
     WarpsOfView<T> const& view;
     Four begin, end;  // of the slices, metres of eye depth
     Four strength;    // [0, 2]
     int count;
     ShadowMap<T>* const* maps;
 
-    static constexpr T none = T(1e37);
-
+    static constexpr T eps = std::numeric_limits<T>::epsilon();
     [[nodiscard, gnu::always_inline]] static Four all(T value) noexcept { return all_four(value); }
 
-    // Slices from i on: everything that they reach, and how near it comes to the eye.
-    struct Reach {
-        ExtentInLanes<Long> extent;
-        Long ahead;
-    };
-    [[gnu::always_inline]] void add_box_edges(EdgesInLight<T> const& edges, int axis, int i, Kept& kept,
-                                              Reach& reach) const noexcept {
-        CutEdges<Long> const cut = edges.box_edges_in(i, axis);
-        reach.extent.add(kept.keep(Kept::of_box + axis, i, cut));
-        Long const from = repeated<Long>(four_at(edges.of_box.ahead + 4 * axis));
-        Long const growth = Long::all(not_zero(view.seen.pose->forward[axis]));
-        Long const depth = least((from + cut.first) * growth, (from + cut.last) * growth);
-        reach.ahead = least(reach.ahead, where_at_most(cut.first, cut.last, depth, Long::all(none)));
-    }
-    [[gnu::always_inline]] void bound(EdgesInLight<T> const& edges, int i, Kept& kept, ExtentsOfSlices<T>& of,
-                                      T (&nearest)[16]) const noexcept {
-        Long const nothing = Long::all(none), at_near = spread<Long>(begin, i), at_far = spread<Long>(end, i);
-        Reach reach;
-        reach.extent = kept.keep(Kept::near_sides, i, edges.sides_at(at_near));
-        reach.ahead = where_at_most(Long::all(T(0)), kept.at(kept.length, Kept::near_sides, i), at_near, nothing);
-        reach.extent.add(kept.keep(Kept::far_sides, i, edges.sides_at(at_far)));
-        CutEdges<Long> const rays = edges.rays_in(i);
-        reach.extent.add(kept.keep(Kept::rays, i, rays));
-        reach.ahead = least(reach.ahead, where_at_most(rays.first, rays.last, rays.first, nothing));
-        add_box_edges(edges, 0, i, kept, reach);
-        add_box_edges(edges, 1, i, kept, reach);
-        add_box_edges(edges, 2, i, kept, reach);
-        of.store(i, reach.extent);
-        store_long(nearest + 4 * i, reach.ahead);
-    }
+    // What slices see of the receivers, in light space, relative to the eye; of one that sees nothing, lo > hi, and
+    // numbers to compute with.
+    struct Seen {
+        Four lo, hi;
+        Four x_lo, x_hi, y_lo, y_hi, first, last;
+        Four nearest;  // metres of eye depth
+        Four radius;   // nothing is farther from the eye
 
-    // The ends of what was kept, behind the warp w = w_slope y + w_offset.
-    struct Ends {
-        T along[Kept::groups][2][16], inverse_w[Kept::groups][2][16];
-        T lo[16], hi[16];  // x / w
-    };
-    struct Span {
-        Long lo, hi;
-    };
-    [[gnu::always_inline]] static void project_group(Kept const& kept, int group, HalfStep<Long> const& half, int i,
-                                                     Long const& slope, Long const& offset, Span& span,
-                                                     Ends& ends) noexcept {
-        Long const nothing = Long::all(none), less_than_nothing = Long::all(-none), w_min = Long::all(T(0.5));
-        Long const zero = Long::all(T(0)), kept_length = kept.at(kept.length, group, i);
-        Long const length = largest(kept_length, Long::all(T(-1)));
-        Long const x = kept.at(kept.x, group, i), across = half.step.x * length, ahead = half.step.z * length;
-        Long const along = where_at_most(zero, kept_length, kept.at(kept.along, group, i), less_than_nothing);
-        Long const w = kept.at(kept.y, group, i) * slope + offset, growth = half.step.y * length * slope;
-        Long const a = Long::all(T(1)) / largest(w - growth, w_min);
-        Long const b = Long::all(T(1)) / largest(w + growth, w_min);
-        Long const from = (x - across) * a, to = (x + across) * b;
-        span.lo = least(span.lo, where_at_most(zero, kept_length, least(from, to), nothing));
-        span.hi = largest(span.hi, where_at_most(zero, kept_length, largest(from, to), less_than_nothing));
-        store_long(ends.along[group][0] + 4 * i, along - ahead);
-        store_long(ends.along[group][1] + 4 * i, along + ahead);
-        store_long(ends.inverse_w[group][0] + 4 * i, a);
-        store_long(ends.inverse_w[group][1] + 4 * i, b);
-    }
-    [[gnu::always_inline]] static void project(EdgesInLight<T> const& edges, int i, Kept const& kept,
-                                               Four const& w_slope, Four const& w_offset, Ends& ends) noexcept {
-        Long const slope = spread<Long>(w_slope, i), offset = spread<Long>(w_offset, i);
-        Span span{Long::all(none), Long::all(-none)};
-        project_group(kept, Kept::near_sides, edges.along_side, i, slope, offset, span, ends);
-        project_group(kept, Kept::far_sides, edges.along_side, i, slope, offset, span, ends);
-        project_group(kept, Kept::rays, edges.along_ray, i, slope, offset, span, ends);
-        project_group(kept, Kept::of_box, edges.along[0], i, slope, offset, span, ends);
-        project_group(kept, Kept::of_box + 1, edges.along[1], i, slope, offset, span, ends);
-        project_group(kept, Kept::of_box + 2, edges.along[2], i, slope, offset, span, ends);
-        store_long(ends.lo + 4 * i, span.lo);
-        store_long(ends.hi + 4 * i, span.hi);
-    }
-    // The largest of (depth - first) / w.
-    [[nodiscard, gnu::always_inline]] static Four deepest(Ends const& ends, Four const& first) noexcept {
-        T of_slices[16];
-        deepest_from(ends, 0, first, of_slices);
-        if constexpr (Long::fours == 1) deepest_from(ends, 1, first, of_slices);
-        if constexpr (Long::fours <= 2) deepest_from(ends, 2, first, of_slices);
-        if constexpr (Long::fours == 1) deepest_from(ends, 3, first, of_slices);
-        return largest_of(of_slices);
-    }
-    [[gnu::always_inline]] static void deepest_from(Ends const& ends, int i, Four const& first,
-                                                    T (&of_slices)[16]) noexcept {
-        Long const start = spread<Long>(first, i);
-        Long most = Long::all(-none);
-        for (int group = 0; group < Kept::groups; ++group)
-            for (int side = 0; side < 2; ++side)
-                most = largest(most, (long_at<Long>(ends.along[group][side] + 4 * i) - start) *
-                                         long_at<Long>(ends.inverse_w[group][side] + 4 * i));
-        store_long(of_slices + 4 * i, most);
-    }
-
-    // 1 / a of the warp (warp.hpp), in lanes.
-    [[nodiscard, gnu::always_inline]] Four inverse_centre(Four const& nearest, Four const& length) const noexcept {
-        if (view.flat) return all(T(0));
-        T const sine = view.axes.sine;
-        // Nearer than 2^-20 of the far distance no ratio of depths means anything.
-        Four const z_near = largest(nearest, end * all(T(1) / T(1 << 20))), most = all(sine) / z_near;
-        Four const root_of_ratio = root(all(T(1)) + length * most);
-        Four const share = least(strength, all(T(1))) + largest(strength - all(T(1)), all(T(0))) * root_of_ratio;
-        return all(view.axes.fade) * (most * share / (all(T(1)) + root_of_ratio));
-    }
-
-    // One row of four matrices, relative to the eye.
-    struct Row {
-        Vectors<Four> normal;
-        Four offset;
-    };
-    // Column by column, of all four.
-    [[gnu::always_inline]] void write(Row const& x, Row const& y, Row const& z, Row const& w,
-                                      bool (&finite)[4]) const noexcept {
-        Vec3<T> const& eye = view.eye;
-        auto const moved = [&eye](Row const& row) {
-            return row.offset - (row.normal.x * all(eye.x) + row.normal.y * all(eye.y) + row.normal.z * all(eye.z));
-        };
-        Four columns[4][4] = {{x.normal.x, y.normal.x, z.normal.x, w.normal.x},
-                              {x.normal.y, y.normal.y, z.normal.y, w.normal.y},
-                              {x.normal.z, y.normal.z, z.normal.z, w.normal.z},
-                              {moved(x), moved(y), moved(z), moved(w)}};
-        for (auto& column : columns) transpose(column);
-        for (int i = 0; i < count; ++i) {
-            BeyondReach<T> infinite;
-            for (int column = 0; column < 4; ++column) {
-                static_assert(sizeof columns[0][0] == sizeof maps[0]->clip_from_world[0], "columns without a gap");
-                std::memcpy(&maps[i]->clip_from_world[column].x, &columns[column][i], sizeof columns[0][0]);
-                infinite.look_for_finite(columns[column][i]);
-            }
-            finite[i] = !infinite.any();
+        [[nodiscard, gnu::always_inline]] Four or_none(Four const& value) const noexcept {
+            return where_at_most(lo, hi, value, all(T(0)));
         }
-    }
-
-    [[gnu::always_inline]] void operator()() const noexcept {
-        constexpr T eps = std::numeric_limits<T>::epsilon();
-        T const slack = view.seen.slack;
-        Four const zero = all(T(0)), one = all(T(1));
-        EdgesInLight<T> const edges(view.seen, begin, end);
-        Kept kept;
+        [[nodiscard, gnu::always_inline]] Four or_one(Four const& value) const noexcept {
+            return where_at_most(lo, hi, value, all(T(1)));
+        }
+    };
+    [[nodiscard, gnu::always_inline]] Seen see(EdgesInLight<T> const& edges, KeptEdges<T>& kept) const noexcept {
+        Four const slack = all(view.seen.slack);
         ExtentsOfSlices<T> of;
         T ahead[16];
-        bound(edges, 0, kept, of, ahead);
-        if constexpr (Long::fours == 1) bound(edges, 1, kept, of, ahead);
-        if constexpr (Long::fours <= 2) bound(edges, 2, kept, of, ahead);
-        if constexpr (Long::fours == 1) bound(edges, 3, kept, of, ahead);
-        Four const seen_lo = least_of(of.lo[0]), seen_hi = largest_of(of.hi[0]);
-        // Of a slice that sees nothing, numbers to compute with.
-        auto const or_none = [&](Four const& value) { return where_at_most(seen_lo, seen_hi, value, zero); };
-        Four const x_lo = or_none(seen_lo - all(slack)), x_hi = or_none(seen_hi + all(slack));
-        Four const y_lo = or_none(least_of(of.lo[1]) - all(slack)), y_hi = or_none(largest_of(of.hi[1]) + all(slack));
-        Four const first = or_none(least_of(of.lo[2]) - all(slack)), last = or_none(largest_of(of.hi[2]) + all(slack));
-        Four const nearest = largest(least(least_of(ahead), end), begin);
-
-        Four const length = y_hi - y_lo, centre = inverse_centre(nearest, length);
-        Four const w_offset = one - y_lo * centre;
-        Ends ends;
-        project(edges, 0, kept, centre, w_offset, ends);
-        if constexpr (Long::fours == 1) project(edges, 1, kept, centre, w_offset, ends);
-        if constexpr (Long::fours <= 2) project(edges, 2, kept, centre, w_offset, ends);
-        if constexpr (Long::fours == 1) project(edges, 3, kept, centre, w_offset, ends);
-        Four left = or_none(least_of(ends.lo)), right = or_none(largest_of(ends.hi));
-        left = left - all(slack) * (one + absolute(left) * centre);
-        right = right + all(slack) * (one + absolute(right) * centre);
-        Four bottom = zero, top = length / (one + length * centre);
-
-        // As wide as a texel and as rounding may be, and a margin.
+        kept.keep_all(view.seen, edges, of, ahead);
+        Seen seen;
+        seen.lo = least_of(of.lo[0]), seen.hi = largest_of(of.hi[0]);
+        seen.x_lo = seen.or_none(seen.lo - slack), seen.x_hi = seen.or_none(seen.hi + slack);
+        seen.y_lo = seen.or_none(least_of(of.lo[1]) - slack), seen.y_hi = seen.or_none(largest_of(of.hi[1]) + slack);
+        seen.first = seen.or_none(least_of(of.lo[2]) - slack), seen.last = seen.or_none(largest_of(of.hi[2]) + slack);
+        seen.nearest = largest(least(least_of(ahead), end), begin);
         auto const larger_end = [](Four const& a, Four const& b) { return largest(absolute(a), absolute(b)); };
-        Four const far_x = larger_end(x_lo, x_hi), far_y = larger_end(y_lo, y_hi), far_z = larger_end(first, last);
-        Four const radius = root(far_x * far_x + far_y * far_y + far_z * far_z);
-        T const eye_metres = glm::length(view.eye);
-        Four const noise = (radius + all(eye_metres)) * all(T(64) * eps);
-        Four const texel = largest(x_hi - x_lo, length) * all(T(1) / view.size), least_width = largest(texel, noise);
+        Four const x = larger_end(seen.x_lo, seen.x_hi), y = larger_end(seen.y_lo, seen.y_hi);
+        Four const z = larger_end(seen.first, seen.last);
+        seen.radius = root(x * x + y * y + z * z);
+        return seen;
+    }
+
+    // w = slope y + offset; the slope is 1 / a of warp.hpp.
+    struct Warp {
+        Four slope, offset;
+    };
+    [[nodiscard, gnu::always_inline]] Warp warp_for(Seen const& seen) const noexcept {
+        if (view.flat) return {all(T(0)), all(T(1))};
+        T const sine = view.axes.sine;
+        // Nearer than 2^-20 of the far distance no ratio of depths means anything.
+        Four const z_near = largest(seen.nearest, end * all(T(1) / T(1 << 20))), most = all(sine) / z_near;
+        Four const root_of_ratio = root(all(T(1)) + (seen.y_hi - seen.y_lo) * most);
+        Four const share = least(strength, all(T(1))) + largest(strength - all(T(1)), all(T(0))) * root_of_ratio;
+        Four const slope = all(view.axes.fade) * (most * share / (all(T(1)) + root_of_ratio));
+        return {slope, all(T(1)) - seen.y_lo * slope};
+    }
+
+    // Of the maps: x / w, and (y - y_lo) / w.
+    struct Sides {
+        Four left, right, bottom, top;
+    };
+    [[nodiscard, gnu::always_inline]] Sides sides_of(Seen const& seen, Warp const& warp,
+                                                     WarpedEnds<T> const& ends) const noexcept {
+        Four const zero = all(T(0)), one = all(T(1)), slack = all(view.seen.slack), length = seen.y_hi - seen.y_lo;
+        Sides of{seen.or_none(least_of(ends.lo)), seen.or_none(largest_of(ends.hi)), zero,
+                 length / (one + length * warp.slope)};
+        of.left = of.left - slack * (one + absolute(of.left) * warp.slope);
+        of.right = of.right + slack * (one + absolute(of.right) * warp.slope);
+        // As wide as a texel and as rounding may be, and a margin.
+        Four const noise = (seen.radius + all(glm::length(view.eye))) * all(T(64) * eps);
+        Four const texel = largest(seen.x_hi - seen.x_lo, length) * all(T(1) / view.size);
+        Four const least_width = largest(texel, noise);
         auto const widen = [&](Four& lo, Four& hi) {
             Four const more = largest(least_width - (hi - lo), zero) * all(T(0.5));
             lo = lo - more, hi = hi + more;
             Four const border = (hi - lo) * all(view.margin);
             lo = lo - border, hi = hi + border;
         };
-        widen(left, right), widen(bottom, top);
+        widen(of.left, of.right), widen(of.bottom, of.top);
+        return of;
+    }
 
+    // Metres along the light: of the first caster between the sides, of the last receiver, and a little more than both.
+    struct Depth {
+        Four caster, lowest;
+        Four from, to, room;
+    };
+    [[nodiscard, gnu::always_inline]] Depth depth_of(Seen const& seen, Warp const& warp,
+                                                     Sides const& of) const noexcept {
+        Four const one = all(T(1)), least_w = all(T(1e-6));
         // y of the lower and upper side: where (y - y_lo) / w is `bottom` and `top`; w >= 1/2 below.
-        Four const below = largest(bottom / (one - bottom * centre), all(T(-0.5)) / largest(centre, all(T(1e-30))));
-        Four const narrowing = one - top * centre - all(T(4) * eps);
-        Four const above = where_at_most(all(T(1e-6)), narrowing, top / largest(narrowing, all(T(1e-6))), all(none));
-        ShaftsOfLight<T> const shafts{left, right, y_lo + below, y_lo + above, centre, w_offset};
-        LightOnBox<T> const lit(shafts, view.axes.basis, view.casters, radius * all(T(1024)));
-        Four const caster = lit.first_met(shafts);
+        Four const below =
+            largest(of.bottom / (one - of.bottom * warp.slope), all(T(-0.5)) / largest(warp.slope, all(T(1e-30))));
+        Four const narrowing = one - of.top * warp.slope - all(T(4) * eps);
+        Four const above = where_at_most(least_w, narrowing, of.top / largest(narrowing, least_w), all(far_away<T>));
+        ShaftsOfLight<T> const shafts{of.left, of.right, seen.y_lo + below, seen.y_lo + above, warp.slope, warp.offset};
+        LightOnBox<T> const lit(shafts, view.axes.basis, view.casters, seen.radius * all(T(1024)));
+        Depth depth;
+        depth.caster = lit.first_met(shafts);
         // No receiver is farther from the light than this.
-        Four const lowest =
-            last + all(T(1e-3)) * (last - first) + largest(absolute(first), absolute(last)) * all(T(64) * eps);
-        Four const depth_lo = where_at_most(caster, lowest, least(first, caster), first);
-        Four const room = (last - depth_lo) * all(T(1) / T(1024)) + radius * all(T(64) * eps) + all(slack);
-        Four const from = depth_lo - room, to = last + room;
+        depth.lowest = seen.last + all(T(1e-3)) * (seen.last - seen.first) +
+                       largest(absolute(seen.first), absolute(seen.last)) * all(T(64) * eps);
+        Four const begins = where_at_most(depth.caster, depth.lowest, least(seen.first, depth.caster), seen.first);
+        depth.room = (seen.last - begins) * all(T(1) / T(1024)) + seen.radius * all(T(64) * eps) + all(view.seen.slack);
+        depth.from = begins - depth.room, depth.to = seen.last + depth.room;
+        return depth;
+    }
 
-        Vec3<T> const &across = view.axes.basis.x, &up = view.axes.basis.y, &travel = view.axes.basis.depth;
-        Row const w{times(centre, up), w_offset};
-        Four const x_scale = all(T(2)) / (right - left), x_shift = (right + left) / (right - left);
-        Row x{times(x_scale, across) + times(zero - centre * x_shift, up), zero - w_offset * x_shift};
-        T const y_sign = view.clip.ndc_y == YAxis::up ? T(1) : T(-1);
-        Four const y_scale = all(y_sign * T(2)) / (top - bottom),
-                   y_shift = (top + bottom) / (top - bottom) * all(y_sign);
-        Row y{times(y_scale - centre * y_shift, up), zero - (y_lo * y_scale + w_offset * y_shift)};
-        Row z;
+    [[nodiscard, gnu::always_inline]] Row x_row(Warp const& warp, Sides const& of) const noexcept {
+        Vec3<T> const &across = view.axes.basis.x, &up = view.axes.basis.y;
+        Four const zero = all(T(0)), width = of.right - of.left;
+        Four const scale = all(T(2)) / width, shift = (of.right + of.left) / width;
+        return {times(scale, across) + times(zero - warp.slope * shift, up), zero - warp.offset * shift};
+    }
+    [[nodiscard, gnu::always_inline]] Row y_row(Seen const& seen, Warp const& warp, Sides const& of) const noexcept {
+        T const sign = view.clip.ndc_y == YAxis::up ? T(1) : T(-1);
+        Four const height = of.top - of.bottom, scale = all(sign * T(2)) / height;
+        Four const shift = (of.top + of.bottom) / height * all(sign);
+        return {times(scale - warp.slope * shift, view.axes.basis.y),
+                all(T(0)) - (seen.y_lo * scale + warp.offset * shift)};
+    }
+    [[nodiscard, gnu::always_inline]] Row z_row(Seen const& seen, Warp const& warp, WarpedEnds<T> const& ends,
+                                                Depth const& depth) const noexcept {
+        Vec3<T> const &up = view.axes.basis.y, &travel = view.axes.basis.depth;
+        Four const zero = all(T(0)), one = all(T(1)), two = all(T(2));
         if (view.clip.depth == DepthOrder::one_to_zero) {
-            Four const scale = one / (to - from);
-            z = {times(zero - scale, travel), to * scale};
-        } else {
-            Four const scale = one / or_one(deepest(ends, from - room), seen_lo, seen_hi);
-            z = {times(scale, travel), zero - from * scale};
-            if (view.clip.depth == DepthOrder::minus_one_to_one) {
-                Four const two = all(T(2));
-                z = {times(two * scale, travel) + times(zero - centre, up), z.offset * two - w_offset};
-            }
+            Four const scale = one / (depth.to - depth.from);
+            return {times(zero - scale, travel), depth.to * scale};
         }
-        bool finite[4];
-        write(x, y, z, w, finite);
+        Four const scale = one / seen.or_one(ends.deepest(depth.from - depth.room));
+        Row const z{times(scale, travel), zero - depth.from * scale};
+        if (view.clip.depth != DepthOrder::minus_one_to_one) return z;
+        return {times(two * scale, travel) + times(zero - warp.slope, up), z.offset * two - warp.offset};
+    }
 
-        auto const steep = [](Row const& row) {
-            return row.normal.x * row.normal.x + row.normal.y * row.normal.y + row.normal.z * row.normal.z;
-        };
-        Four const steepest = root(largest(steep(x), steep(y))) * all(eps * eye_metres * view.size);
+    // Everything about the maps but their matrices, which have been written; those that show nothing are taken back.
+    [[gnu::always_inline]] void conclude(Seen const& seen, Depth const& depth, Four const& steepest,
+                                         bool const (&finite)[4]) const noexcept {
         for (int i = 0; i < count; ++i) {
             ShadowMap<T>& map = *maps[i];
             map.clip = view.clip;
             map.faults = view.faults;
             map.w_min = T(0);
             map.visible = false;
-            bool const body = seen_lo[i] <= seen_hi[i];
+            bool const body = seen.lo[i] <= seen.hi[i];
             if (body && !view.flat && view.axes.fade * strength[i] == T(0)) map.faults |= Fault::warp_faded;
             if (body && !view.flat && !(begin[i] > T(0))) map.faults |= Fault::near_clamped;
-            if (!body || !(caster[i] <= lowest[i])) {
+            if (!body || !(depth.caster[i] <= depth.lowest[i])) {
                 map.clip_from_world = nowhere<T>();
                 continue;
             }
@@ -5997,10 +6181,43 @@ struct FourWarps {
             map.visible = true;
         }
     }
-    [[nodiscard, gnu::always_inline]] static Four or_one(Four const& value, Four const& lo, Four const& hi) noexcept {
-        return where_at_most(lo, hi, value, all(T(1)));
+
+    [[gnu::always_inline]] void operator()() const noexcept {
+        EdgesInLight<T> const edges(view.seen, begin, end);
+        KeptEdges<T> kept;
+        Seen const seen = see(edges, kept);
+        Warp const warp = warp_for(seen);
+        WarpedEnds<T> const ends(edges, kept, warp.slope, warp.offset);
+        Sides const of = sides_of(seen, warp, ends);
+        Depth const depth = depth_of(seen, warp, of);
+
+        Row const x = x_row(warp, of), y = y_row(seen, warp, of), z = z_row(seen, warp, ends, depth);
+        Row const w{times(warp.slope, view.axes.basis.y), warp.offset};
+        bool finite[4];
+        write_rows(x, y, z, w, view.eye, count, maps, finite);
+        // Texels that the last bit of the eye's place makes.
+        auto const squared = [](Vectors<Four> const& v) { return v.x * v.x + v.y * v.y + v.z * v.z; };
+        Four const steepest =
+            root(largest(squared(x.normal), squared(y.normal))) * all(eps * glm::length(view.eye) * view.size);
+        conclude(seen, depth, steepest, finite);
     }
 };
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/slice_warps.hpp ========
+//
+// All slices of a view at once, each cut down to the receivers and warped (warp.hpp): what simple_perspective_map gives
+// for each slice, some forty times as fast. For cascades under a low sun; fit_cascades calls it for CascadeFit::warped.
+//
+// Source: that of warp.hpp; four_warps.hpp says how. Departure: every plane is 16 epsilon of the view's reach farther
+// out, since edges are bounded one by one.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
 
 // What warps are made from, checked and mended.
 template <class T>
@@ -6245,7 +6462,7 @@ template <class T>
 
 // ======== shadowmath/cascades.hpp ========
 //
-// The one call: a view, a light and two boxes in; one matrix a cascade out.
+// The one call: a view, a light and two boxes go in, one matrix for each cascade comes out.
 //
 //   view ── splits ── slices ─┬─ fit ── depth range ── matrix
 //   light ── basis ───────────┘
@@ -8440,8 +8657,8 @@ template <class T>
 // Each of a few hundred rays meets some boxes. What they hold is not known, so a ray is taken to end in each box that
 // it meets with even odds, and in the last one for certain: there is a ground. A surface in a box is as likely in its
 // nearer as in its farther half. Of a box that the eye is in, it sees the room, and its far end where no other box is
-// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is
-// weighed is perspective aliasing alone.
+// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is weighed is perspective
+// aliasing alone.
 
 namespace shadowmath {
 inline namespace v0 {
@@ -8560,13 +8777,12 @@ template <class T>
 // ======== shadowmath/quad_map.hpp ========
 //
 // A map whose four sides are any four lines of the light's plane: the one homography that takes the quadrilateral
-// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared and lopsided ones are all
-// this.
+// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared or lopsided, are all this.
 //
-//          top               Each side is a line l with l(p) >= 0 inside. Of four lines in a plane one combination
-//        ________            vanishes,
-//       /        | .
-// left /         |  right        a left + b right = c bottom + d top,     a, b, c, d > 0,
+//          top               Each side is a line l with l(p) >= 0 inside. One combination of four lines in a plane
+//        ________            is zero everywhere,
+//       /        |
+// left /         | right         a left + b right = c bottom + d top,     a, b, c, d > 0,
 //     /__________|
 //         bottom             and with it w = a left + b right, x = a left - b right, y = c bottom - d top: x = -w on
 //                            the left side, x = w on the right one, w > 0 between.
@@ -9775,8 +9991,8 @@ template <class T, class Bound, class Cover>
     }
     T weight = T(0);
     for (int i = 0; i < work.count; ++i) weight += work.sample[static_cast<unsigned>(i)].weight;
-    chosen.one_map = weight > T(0) ? chosen.one_map / weight : T(0);
-    chosen.price = weight > T(0) ? least / weight : T(0);
+    chosen.one_map /= weight;
+    chosen.price = least / weight;
     return chosen;
 }
 
@@ -9790,7 +10006,7 @@ inline void take_samples(MapSearch<T>& work, LightSampler<T> const& sampler, Sur
     int const stride = (asked + max_search_samples - 1) / max_search_samples;
     int seen = 0;
     work.count = 0;
-    for (int i = 0; i < count && work.count < max_search_samples; ++i) {
+    for (int i = 0; i < count; ++i) {
         LightSample<T> const sample = light_sample(sampler, samples[i]);
         if (!is_asked(sample)) continue;
         // One of each `stride`, not always the same one: else all might lie in a few columns of the picture.
@@ -10815,9 +11031,9 @@ template <class T>
 // Percentage-closer soft shadows: edges that are sharp where the occluder touches and wide where it is far, from one
 // ordinary map. Look for occluders, take their mean gap, filter as wide as the penumbra of that gap.
 //
-// Use it for one light close to the eye, where the softness of a shadow tells how far its caster is; where it does not,
-// filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high one overlap, the
-// edge is of a width in between.
+// Use it for one light whose shadows are close to the eye, where softness tells how far the caster is; where it would
+// not be noticed, filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high
+// one overlap, the width of the edge lies in between.
 //
 // Source: Fernando, SIGGRAPH 2005 Sketches; the disk of taps is Vogel's, Mathematical Biosciences 44, 1979.
 // Departures: gaps instead of linear depths (penumbra.hpp). The search counts an occluder only from inside the cone
@@ -11150,8 +11366,8 @@ template <class T>
 // receiver in it is occluded. Moments are of z = 2 depth - 1.
 //
 // Source: Peters and Klein, Moment Shadow Mapping, I3D 2015 (the Hamburger problem); packing and bias as in Peters
-// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being
-// infinite, so there is no receiver for which it divides by zero.
+// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being infinite, so there is no
+// receiver for which it divides by zero.
 
 namespace shadowmath {
 inline namespace v0 {

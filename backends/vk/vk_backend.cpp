@@ -7,6 +7,8 @@
 #include "backends/vk/commands.hpp"
 #include "backends/vk/compute.hpp"
 #include "backends/vk/descriptors.hpp"
+#include "backends/vk/mesh.hpp"
+#include "backends/vk/read_back.hpp"
 #include "backends/vk/record.hpp"
 #include "backends/vk/statistics.hpp"
 #include "backends/vk/targets.hpp"
@@ -14,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -33,9 +34,7 @@ public:
           commands_(device_), compute_(device_, commands_), statistics_(device_),
           constants_(make_host_buffer(device_, sizeof(Constants),
                                       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
-          numbers_(make_host_buffer(device_, sizeof(instance_numbers), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
-          descriptors_(device_.get(), pipelines_.set_layout, constants_, sizeof(FrameBlock)) {
-        std::memcpy(numbers_.mapped, instance_numbers.data(), sizeof(instance_numbers));
+          mesh_(device_), descriptors_(device_.get(), pipelines_.set_layout, constants_, sizeof(FrameBlock)) {
         prepare_maps(1, 1);  // the receiver's binding always has an image
         if (views_at_once_ > 1u && !second_view_works()) views_at_once_ = 1u;
         if (mistake_ == VulkanMistake::leak) Pipelines(device_).sampler.forget();
@@ -56,7 +55,7 @@ public:
     void upload(Scene const& scene) override {
         demand_none(fault_of(scene));
         objects_.clear();
-        if (!scene.indices.empty()) fill_buffers(scene);
+        if (!scene.indices.empty()) mesh_.upload(commands_, scene);
         objects_ = scene.objects;
     }
 
@@ -155,52 +154,15 @@ public:
         if (layer < 0 || layer >= maps_.layers)
             throw std::runtime_error("read_depth: layer " + std::to_string(layer) + " of " +
                                      std::to_string(maps_.layers));
-        Image<float> image(Extent{maps_.size, maps_.size});
         Use const reading =
             mistake_ == VulkanMistake::copy_without_barrier ? unsynchronised_to(copied_from) : copied_from;
-        Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        commands_.submit([&](VkCommandBuffer commands) {
-            hand_over(commands, maps_.target, depth_sampled, reading);
-            copy_layer(commands, maps_.target, layer, image.extent, staging, 0);
-            hand_over(commands, maps_.target, copied_from, depth_sampled);
-            finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-        });
-        std::memcpy(image.pixels.data(), staging.mapped, byte_count(image));
-        return image;
+        return read_layer(device_, commands_, maps_.target, layer, {maps_.size, maps_.size}, depth_sampled, reading);
     }
 
-    Frame read_frame() override {
-        Extent const extent = frame_.extent;
-        Frame frame{Image<Rgba8>(extent), Image<Texel4>(extent), Image<Texel4>(extent)};
-        if (frame.colour.pixels.empty()) return frame;
-        VkDeviceSize const geometry = byte_count(frame.position);
-        Buffer const staging =
-            make_host_buffer(device_, 2 * geometry + byte_count(frame.colour), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        commands_.submit([&](VkCommandBuffer commands) {
-            copy_layer(commands, frame_.position, 0, extent, staging, 0);
-            copy_layer(commands, frame_.normal, 0, extent, staging, geometry);
-            copy_layer(commands, frame_.colour, 0, extent, staging, 2 * geometry);
-            finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-        });
-        auto const* const bytes = static_cast<std::byte const*>(staging.mapped);
-        std::memcpy(frame.position.pixels.data(), bytes, geometry);
-        std::memcpy(frame.normal.pixels.data(), bytes + geometry, geometry);
-        std::memcpy(frame.colour.pixels.data(), bytes + 2 * geometry, byte_count(frame.colour));
-        return frame;
-    }
+    Frame read_frame() override { return read_pictures(device_, commands_, frame_); }
 
     Image<float> read_eye_depth() override {
-        Image<float> image(eye_.extent);
-        if (image.pixels.empty()) return image;
-        Buffer const staging = make_host_buffer(device_, byte_count(image), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        commands_.submit([&](VkCommandBuffer commands) {
-            hand_over(commands, eye_.target, computed_with, copied_from);
-            copy_layer(commands, eye_.target, 0, image.extent, staging, 0);
-            hand_over(commands, eye_.target, copied_from, computed_with);
-            finish_copies(commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-        });
-        std::memcpy(image.pixels.data(), staging.mapped, byte_count(image));
-        return image;
+        return read_layer(device_, commands_, eye_.target, 0, eye_.extent, computed_with);
     }
 
     std::vector<MapConstants> read_fit() override {
@@ -213,11 +175,6 @@ public:
     std::vector<std::string> take_messages() override { return std::exchange(device_.messages, {}); }
 
 private:
-    template <class Pixel>
-    static VkDeviceSize byte_count(Image<Pixel> const& image) {
-        return image.pixels.size() * sizeof(Pixel);
-    }
-
     // Mesa 22.3's software driver transforms every view of a draw, but rasterises them all into the first one's map. So
     // two are drawn and looked at; where the second is missing, one view at once is what multiview comes to.
     bool second_view_works() {
@@ -234,25 +191,6 @@ private:
         upload({});
         prepare_maps(1, 1);
         return works;
-    }
-
-    void fill_buffers(Scene const& scene) {
-        VkDeviceSize const vertex_bytes = scene.vertices.size() * sizeof(Vertex);
-        VkDeviceSize const index_bytes = scene.indices.size() * sizeof(std::uint32_t);
-        Buffer const staging = make_host_buffer(device_, vertex_bytes + index_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-        std::memcpy(staging.mapped, scene.vertices.data(), vertex_bytes);
-        std::memcpy(static_cast<std::byte*>(staging.mapped) + vertex_bytes, scene.indices.data(), index_bytes);
-        vertices_ = make_device_buffer(device_, vertex_bytes,
-                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        indices_ = make_device_buffer(device_, index_bytes,
-                                      VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        commands_.submit([&](VkCommandBuffer commands) {
-            VkBufferCopy const of_vertices{0, 0, vertex_bytes}, of_indices{vertex_bytes, 0, index_bytes};
-            vkCmdCopyBuffer(commands, staging.handle, vertices_.handle, 1, &of_vertices);
-            vkCmdCopyBuffer(commands, staging.handle, indices_.handle, 1, &of_indices);
-            finish_copies(commands, VK_PIPELINE_STAGE_VERTEX_INPUT_BIT,
-                          VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT);
-        });
     }
 
     void prepare_maps(int size, int layers) {
@@ -290,15 +228,9 @@ private:
     void draw(VkCommandBuffer commands, std::size_t block_offset, std::span<Draw const> draws) const {
         if (draws.empty()) return;
         auto const offset = static_cast<std::uint32_t>(block_offset);
-        std::array<VkBuffer, 2> const buffers{vertices_.handle, numbers_.handle};
-        constexpr std::array<VkDeviceSize, 2> from_start{};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout, 0, 1,
                                 descriptors_.address(), 1, &offset);
-        vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), from_start.data());
-        vkCmdBindIndexBuffer(commands, indices_.handle, 0, VK_INDEX_TYPE_UINT32);
-        for (Draw const& draw : draws)
-            vkCmdDrawIndexed(commands, draw.index_count, draw.instance_count, draw.first_index, draw.vertex_offset,
-                             draw.first_instance);
+        mesh_.draw(commands, draws);
     }
 
     // A render pass clears the maps of its views alone.
@@ -334,8 +266,8 @@ private:
             }
             case DrawWay::pass_per_map: break;
         }
-        std::size_t const layer =
-            first % static_cast<std::size_t>(maps_.layers);  // a lone layer serves every map in turn
+        // A lone layer serves every map in turn.
+        std::size_t const layer = first % static_cast<std::size_t>(maps_.layers);
         return {pipelines_.depth_pass, maps_.framebuffer[layer], pipelines_.per_map, Constants::offset_of_map(first)};
     }
 
@@ -397,9 +329,9 @@ private:
     Commands commands_;
     Compute compute_;
     Statistics statistics_;
-    Buffer constants_, numbers_;
+    Buffer constants_;
+    Mesh mesh_;
     Descriptors descriptors_;
-    Buffer vertices_, indices_;
     std::vector<Object> objects_;
     Maps maps_;
     FrameTargets frame_;

@@ -7,7 +7,6 @@
 namespace shadowmath::gallery {
 
 using backend::MapChoice;
-using backend::MapConstants;
 
 ViewVolume<float> sampling_eye(scenes::View const& view, backend::Extent extent) {
     Pose<float> const pose = pose_looking(glm::vec3(view.eye), glm::vec3(view.forward), glm::vec3(view.up));
@@ -55,13 +54,7 @@ void sampled_maps(MapSet& set, Input const& in, SampleSplits kind, bool on_devic
         cascade.range = {shadow_distance, shadow_distance, shadow_distance};
         if (i < fitted.count) cascade = fitted.at[i];
         MapBias<float> const bias = bias_for(cascade.map, light, in.map_size, BiasOptions<float>{});
-        MapConstants& constants = set.frame.maps[set.maps.size()];
-        constants.clip_from_world = cascade.map.clip_from_world;
-        constants.depth_end = cascade.range.end;
-        constants.blend_begin = cascade.range.blend_begin;
-        constants.bias_constant = bias.constant;
-        constants.bias_slope_texels = bias.slope_texels;
-        constants.slope_limit = bias.slope_limit;
+        set.frame.maps[set.maps.size()] = constants_of(cascade.map, cascade.range, bias);
         set.maps.push_back({glm::dmat4(cascade.map.clip_from_world), all_casters});
         if (i < fitted.count) set.splits.push_back(cascade.range.end);
     }

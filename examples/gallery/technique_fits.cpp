@@ -7,7 +7,6 @@
 namespace shadowmath::gallery {
 
 using backend::MapChoice;
-using backend::MapConstants;
 using backend::Scene;
 using scenes::View;
 
@@ -33,8 +32,6 @@ Aabb<double> box_of_all(Scene const& scene, bool backend::Object::*role) {
     return all;
 }
 
-namespace {
-
 std::vector<std::uint32_t> casters_in(ShadowMap<double> const& map, Scene const& scene) {
     CasterMaps<double> const maps = caster_maps(&map, 1);
     std::vector<std::uint32_t> indices;
@@ -42,8 +39,6 @@ std::vector<std::uint32_t> casters_in(ShadowMap<double> const& map, Scene const&
         if (scene.objects[i].casts && caster_mask(maps, box_of(scene.objects[i])) != 0) indices.push_back(i);
     return indices;
 }
-
-}  // namespace
 
 void note(MapSet& set, Faults faults) {
     for (std::uint32_t bit = 1; bit != 0; bit <<= 1)
@@ -56,16 +51,7 @@ void add(MapSet& set, Input const& in, ShadowMap<double> const& map, SliceRange<
     if (!map.visible) return;
     BiasOptions<double> options;
     options.filter_radius = filter_radius;
-    MapBias<double> const bias = bias_for(map, in.light, in.map_size, options);
-    MapConstants& constants = set.frame.maps[set.maps.size()];
-    constants.clip_from_world = glm::mat4(map.clip_from_world);
-    constants.depth_end = float(range.end);
-    constants.blend_begin = float(range.blend_begin);
-    constants.w_min = float(map.w_min);
-    constants.bias_constant = float(bias.constant);
-    constants.bias_w = float(bias.per_inverse_w);
-    constants.bias_slope_texels = float(bias.slope_texels);
-    constants.slope_limit = float(bias.slope_limit);
+    set.frame.maps[set.maps.size()] = constants_of(map, range, bias_for(map, in.light, in.map_size, options));
     set.maps.push_back({map.clip_from_world, casters_in(map, in.scene)});
     set.frame.map_count = int(set.maps.size());
 }

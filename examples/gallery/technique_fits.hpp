@@ -39,6 +39,25 @@ struct Input {
 // Objects whose boxes meet what this sees are what shows: it looks as the eye does.
 [[nodiscard]] CasterMaps<double> screen_of(View3 const& view);
 
+// The objects to draw into a map.
+[[nodiscard]] std::vector<std::uint32_t> casters_in(ShadowMap<double> const& map, backend::Scene const& scene);
+
+// What the receiver shader knows of a map.
+template <class T>
+[[nodiscard]] backend::MapConstants constants_of(ShadowMap<T> const& map, SliceRange<T> const& range,
+                                                 MapBias<T> const& bias) {
+    backend::MapConstants constants;
+    constants.clip_from_world = glm::mat4(map.clip_from_world);
+    constants.depth_end = float(range.end);
+    constants.blend_begin = float(range.blend_begin);
+    constants.w_min = float(map.w_min);
+    constants.bias_constant = float(bias.constant);
+    constants.bias_slope_texels = float(bias.slope_texels);
+    constants.slope_limit = float(bias.slope_limit);
+    constants.bias_w = float(bias.per_inverse_w);
+    return constants;
+}
+
 // Says in words what the library had to say.
 void note(MapSet& set, Faults faults);
 

@@ -203,8 +203,7 @@ private:
             };
             auto const minimal = [&](auto* technique) {
                 technique->setMaxFarPlane(float(view.shadow_distance));
-                technique->setMinLightMargin(
-                    150.0f);  // metres toward the light in which casters count; it comes with 0
+                technique->setMinLightMargin(150.0f);  // metres toward the light where casters count; 0 as it comes
                 return standard(technique);
             };
             if (id.starts_with("pssm")) {

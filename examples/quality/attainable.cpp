@@ -1,94 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "examples/quality/attainable.hpp"
 
-#include <shadowmath/fit_quad.hpp>
+#include "examples/quality/partition.hpp"
+#include "examples/quality/quad_corners.hpp"
+
 #include <shadowmath/footprint.hpp>
-#include <shadowmath/light.hpp>
-#include <shadowmath/view_volume.hpp>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <random>
 
 namespace shadowmath::quality {
 namespace {
-
-using Corners = std::array<glm::dvec2, 4>;  // left bottom, right bottom, left top, right top
-using Random = std::mt19937_64;
-
-double uniform(Random& random) {
-    return double(random() >> 11) * 0x1p-53;
-}
-double normal(Random& random) {
-    double const radius = std::sqrt(-2.0 * std::log(1.0 - uniform(random)));
-    return radius * std::cos(6.283185307179586 * uniform(random));
-}
-
-glm::dvec3 line(glm::dvec2 a, glm::dvec2 b) {
-    return {a.y - b.y, b.x - a.x, a.x * b.y - a.y * b.x};
-}
-
-// Of any warp and any shear.
-Quad<double> quad_through(Corners const& c) {
-    glm::dvec2 const middle = (c[0] + c[1] + c[2] + c[3]) / 4.0;
-    std::array<glm::dvec2, 4> p{};
-    for (std::size_t i = 0; i < 4; ++i) p[i] = c[i] - middle;
-    QuadSides<double> sides{line(p[0], p[2]), line(p[1], p[3]), line(p[0], p[1]), line(p[2], p[3])};
-    for (glm::dvec3& side : sides)
-        if (side.z < 0.0) side = -side;
-    return moved(quad_between(sides, 1e6, 1e6), middle);
-}
-
-struct Sample {
-    LightPixel pixel;
-    double weight = 1.0;
-};
-
-// The quadrilateral of least price around some samples, among sixteen rectangles.
-Corners rectangle_around(std::vector<Sample> const& samples, std::vector<std::size_t> const& which,
-                         double usable_texels) {
-    glm::dvec2 mean(0.0);
-    for (std::size_t const i : which) mean += samples[i].pixel.place / double(which.size());
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    for (std::size_t const i : which) {
-        glm::dvec2 const d = samples[i].pixel.place - mean;
-        xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
-    }
-    double const principal = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    Corners best{};
-    double least = outside;
-    for (int turn = 0; turn < 16; ++turn) {
-        double const angle = principal + 1.5707963267948966 * turn / 16.0;
-        glm::dvec2 const a(std::cos(angle), std::sin(angle)), b(-a.y, a.x);
-        glm::dvec2 lo(outside), hi(-outside);
-        for (std::size_t const i : which) {
-            glm::dvec2 const d = samples[i].pixel.place - mean, at(glm::dot(a, d), glm::dot(b, d));
-            lo = glm::min(lo, at);
-            hi = glm::max(hi, at);
-        }
-        glm::dvec2 const room = (hi - lo) * 0.002 + std::max(hi.x - lo.x, hi.y - lo.y) * 1e-5 + 1e-6;
-        lo -= room;
-        hi += room;
-        auto const at = [&](double x, double y) { return mean + a * x + b * y; };
-        Corners const corners{at(lo.x, lo.y), at(hi.x, lo.y), at(lo.x, hi.y), at(hi.x, hi.y)};
-        Quad<double> const quad = quad_through(corners);
-        if (!quad.visible) continue;
-        double price = 0.0;
-        std::size_t const stride = 1 + which.size() / 64;
-        for (std::size_t k = 0; k < which.size(); k += stride)
-            price += price_of(major_in(quad, usable_texels, samples[which[k]].pixel));
-        if (price < least) {
-            least = price;
-            best = corners;
-        }
-    }
-    return best;
-}
 
 class Search {
 public:
@@ -229,54 +153,8 @@ private:
         quads_[largest] = quad_through(corners_[largest]);
     }
 
-    // Clusters by some features of a pixel, each with a weight drawn at random.
     bool start_at_random() {
-        constexpr std::size_t features = 7;
-        using Feature = std::array<double, features>;
-        Feature scale{};
-        for (double& one : scale) one = uniform(random_) < 0.5 ? 0.0 : uniform(random_);
-        if (std::ranges::all_of(scale, [](double s) { return s == 0.0; })) scale[2] = 1.0;
-        std::vector<Feature> at(samples_.size());
-        Feature mean{}, deviation{};
-        for (std::size_t i = 0; i < samples_.size(); ++i) {
-            LightPixel const& p = samples_[i].pixel;
-            // The direction in which a texel looks longest, and how much longer than wide.
-            double const a = glm::dot(p.gain_x, p.gain_x), b = glm::dot(p.gain_x, p.gain_y),
-                         c = glm::dot(p.gain_y, p.gain_y);
-            double const twice = std::atan2(2.0 * b, a - c);
-            double const det = std::abs(p.gain_x.x * p.gain_y.y - p.gain_x.y * p.gain_y.x);
-            double const ratio = std::log((a + c) / std::max(det, 1e-12));
-            at[i] = {p.seen.x, p.seen.y,       std::log(p.seen.z), std::cos(twice) * ratio, std::sin(twice) * ratio,
-                     ratio,    std::log(a + c)};
-            for (std::size_t f = 0; f < features; ++f) mean[f] += at[i][f] / double(samples_.size());
-        }
-        for (Feature const& one : at)
-            for (std::size_t f = 0; f < features; ++f)
-                deviation[f] += (one[f] - mean[f]) * (one[f] - mean[f]) / double(samples_.size());
-        for (Feature& one : at)
-            for (std::size_t f = 0; f < features; ++f)
-                one[f] = scale[f] * (one[f] - mean[f]) / std::sqrt(std::max(deviation[f], 1e-12));
-        std::vector<Feature> centre(maps_);
-        for (Feature& one : centre) one = at[random_() % at.size()];
-        std::vector<std::size_t> of(samples_.size(), 0);
-        for (int round = 0; round < 12; ++round) {
-            std::vector<Feature> sum(maps_, Feature{});
-            std::vector<double> count(maps_, 0.0);
-            for (std::size_t i = 0; i < at.size(); ++i) {
-                double nearest = outside;
-                for (std::size_t k = 0; k < maps_; ++k) {
-                    double distance = 0.0;
-                    for (std::size_t f = 0; f < features; ++f)
-                        distance += (at[i][f] - centre[k][f]) * (at[i][f] - centre[k][f]);
-                    if (distance < nearest) nearest = distance, of[i] = k;
-                }
-                count[of[i]] += 1.0;
-                for (std::size_t f = 0; f < features; ++f) sum[of[i]][f] += at[i][f];
-            }
-            for (std::size_t k = 0; k < maps_; ++k)
-                for (std::size_t f = 0; f < features; ++f)
-                    if (count[k] > 0.0) centre[k][f] = sum[k][f] / count[k];
-        }
+        std::vector<std::size_t> const of = drawn_partition(samples_, maps_, random_);
         corners_.clear();
         quads_.clear();
         for (std::size_t k = 0; k < maps_; ++k) {
@@ -293,40 +171,6 @@ private:
         return settle();
     }
 
-    // One map of four corners moves: one corner, one side, or all of it.
-    Corners moved_corners(Corners const& c, double step) {
-        Corners moved = c;
-        glm::dvec2 const along = 0.5 * (c[1] - c[0] + c[3] - c[2]), up = 0.5 * (c[2] - c[0] + c[3] - c[1]);
-        auto const shift = [&] { return along * (step * normal(random_)) + up * (step * normal(random_)); };
-        switch (random_() % 4) {
-            case 0: moved[random_() % 4] += shift(); break;
-            case 1: {  // a side, outward or inward
-                static constexpr std::array<std::array<std::size_t, 2>, 4> ends{{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-                std::size_t const side = random_() % 4;
-                glm::dvec2 const by = (side < 2 ? along : up) * (step * normal(random_));
-                for (std::size_t const end : ends[side]) moved[end] += by;
-                break;
-            }
-            case 2: {  // a side's length
-                static constexpr std::array<std::array<std::size_t, 2>, 4> ends{{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-                auto const& [a, b] = ends[random_() % 4];
-                glm::dvec2 const by = (c[b] - c[a]) * (step * normal(random_));
-                moved[a] -= by;
-                moved[b] += by;
-                break;
-            }
-            default: {
-                glm::dvec2 const by = shift(), middle = (c[0] + c[1] + c[2] + c[3]) / 4.0;
-                double const grow = 1.0 + step * normal(random_), turn = step * normal(random_);
-                for (glm::dvec2& corner : moved) {
-                    glm::dvec2 const d = (corner - middle) * grow;
-                    corner = middle + by + glm::dvec2(d.x - turn * d.y, d.y + turn * d.x);
-                }
-            }
-        }
-        return moved;
-    }
-
     void anneal() {
         std::vector<double> tried(samples_.size()), least(samples_.size());
         std::vector<Quad<double>> best = quads_;
@@ -337,7 +181,7 @@ private:
             double const heat = 0.03 * (1.0 - progress) * (1.0 - progress);
             std::size_t const k = random_() % quads_.size();
             double const size = std::exp(-1.0 - 8.0 * uniform(random_));
-            Corners const corners = moved_corners(corners_[k], size);
+            Corners const corners = moved_at_random(corners_[k], size, random_);
             Quad<double> const quad = quad_through(corners);
             if (!quad.visible) continue;
             judge_map(quad, tried);

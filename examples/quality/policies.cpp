@@ -18,10 +18,11 @@ namespace shadowmath::quality {
 namespace {
 
 using gallery::box_of;
+using gallery::eye_of;
+using gallery::margin_texels;
 using scenes::View;
 
-constexpr ClipSpace clip = gl_zero_to_one_clip;
-constexpr double margin_texels = gallery::filter_radius + 1.0;
+constexpr ClipSpace clip = gallery::drawn_clip;
 
 struct Input {
     backend::Scene const& scene;
@@ -43,12 +44,6 @@ struct Fitted {
     std::vector<FittedMap> maps;
     std::string note;
 };
-
-ViewVolume<double> eye_of(View const& view, backend::Extent extent) {
-    return perspective_view(pose_looking(view.eye, view.forward, view.up), view.fov_y_radians,
-                            double(extent.width) / double(extent.height), view.z_near,
-                            std::max(2000.0, 2.0 * view.shadow_distance));
-}
 
 Camera camera_of(Input const& in) {
     Pose<double> const& pose = in.seen.pose;
@@ -244,22 +239,9 @@ void add(gallery::MapSet& set, Input const& in, FittedMap const& fitted) {
     if (!map.visible && !holds_place) return;
     BiasOptions<double> options;
     options.filter_radius = gallery::filter_radius;
-    MapBias<double> const bias = bias_for(map, in.light, map_size, options);
-    backend::MapConstants& constants = set.frame.maps[set.maps.size()];
-    constants.clip_from_world = glm::mat4(map.clip_from_world);
-    constants.depth_end = float(fitted.end);
-    constants.blend_begin = float(fitted.end);
-    constants.w_min = float(map.w_min);
-    constants.bias_constant = float(bias.constant);
-    constants.bias_w = float(bias.per_inverse_w);
-    constants.bias_slope_texels = float(bias.slope_texels);
-    constants.slope_limit = float(bias.slope_limit);
-    gallery::Map drawn{map.clip_from_world, {}};
-    CasterMaps<double> const sides = caster_maps(&map, 1);
-    for (std::uint32_t i = 0; i < in.scene.objects.size(); ++i)
-        if (in.scene.objects[i].casts && caster_mask(sides, box_of(in.scene.objects[i])) != 0)
-            drawn.casters.push_back(i);
-    set.maps.push_back(std::move(drawn));
+    SliceRange<double> const range{in.seen.z_near, fitted.end, fitted.end};
+    set.frame.maps[set.maps.size()] = gallery::constants_of(map, range, bias_for(map, in.light, map_size, options));
+    set.maps.push_back({map.clip_from_world, gallery::casters_in(map, in.scene)});
     set.frame.map_count = int(set.maps.size());
 }
 

@@ -6,8 +6,8 @@
 // Each of a few hundred rays meets some boxes. What they hold is not known, so a ray is taken to end in each box that
 // it meets with even odds, and in the last one for certain: there is a ground. A surface in a box is as likely in its
 // nearer as in its farther half. Of a box that the eye is in, it sees the room, and its far end where no other box is
-// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is
-// weighed is perspective aliasing alone.
+// met. A guess's normal leans as far from the eye as from the light (neutral_normal), so what is weighed is perspective
+// aliasing alone.
 #pragma once
 
 #include <shadowmath/bounds.hpp>

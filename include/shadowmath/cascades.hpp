@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The one call: a view, a light and two boxes in; one matrix a cascade out.
+// The one call: a view, a light and two boxes go in, one matrix for each cascade comes out.
 //
 //   view ── splits ── slices ─┬─ fit ── depth range ── matrix
 //   light ── basis ───────────┘

@@ -2,8 +2,9 @@
 //
 // The one place where GLM comes in, the names of its types, and the assertion.
 //
-// No more of GLM than is used: all of it takes an eighth longer to compile, and whoever wants it includes it. GLM's
-// macros may be set in any way: shadowmath calls nothing whose meaning depends on them.
+// Only what is used of GLM is included: all of it takes an eighth longer to compile. GLM's macros may be set in any
+// way, since shadowmath calls nothing whose meaning depends on them.
+//
 // To replace the assertion, put a header <shadowmath_user_config.hpp> that defines SHADOWMATH_ASSERT on the include
 // path.
 #pragma once

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which maps an object must be drawn into: a bit for each, and the range [first, last] that one instanced draw covers.
+// Which maps an object must be drawn into: a bit for each map, and the range [first, last] that one instanced draw
+// covers.
 //
 //        light              A caster counts for a map when it reaches into the shaft of light that ends in the map:
 //     |  A |                between its four sides, before its far end, and as far toward the light as you like.

@@ -53,7 +53,7 @@ template <class T>
 // Least and greatest depth of edges, four at a time.
 template <class T>
 struct DepthsOfEdges {
-    Lanes<T> lo, hi;
+    Lanes<T> lo = Lanes<T>::all(std::numeric_limits<T>::max()), hi = Lanes<T>::all(-std::numeric_limits<T>::max());
 
     // From depth a to depth b, where first <= last.
     [[gnu::always_inline]] void add(Lanes<T> const& a, Lanes<T> const& b, Lanes<T> const& first,
@@ -63,46 +63,39 @@ struct DepthsOfEdges {
     }
 };
 
-}  // namespace detail
-
-// Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
-// box will do, however large; the volume must be finite. Not visible where they do not meet.
-//
-// The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
-// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
-// is one piece: near and far end only cut it off.
+// The four sides of a volume, moved outward by what rounding may have moved them inward.
 template <class T>
-[[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
-    using Lanes = detail::Lanes<T>;
-    if (!all_finite(box) || is_empty(box)) return {};
-    auto const all = [](T value) { return Lanes::all(value); };
-    constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
-    Pose<T> const& pose = volume.pose;
-    Aabb<T> const around = merge(bounds_of(corners(volume)), pose.position);
-    // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
-    T const reach = slack * detail::largest_of(around);
-    Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
-    if (is_empty(body)) return {};
-    T const size = detail::largest_of(merge(body, pose.position)), rounding = slack * size;
-    std::array<Vec4<T>, 6> planes = detail::inner_planes(volume);
-    T wider[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-        Vec4<T>& plane = planes[i];
-        T const growth = std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z);
-        wider[i] = slack * (growth * size + std::abs(plane.w));
-        plane.w += wider[i];
+struct WidenedSides {
+    std::array<Vec4<T>, 4> planes;  // positive inside
+    T wider[4];                     // metres, plane by plane
+
+    [[gnu::always_inline]] WidenedSides(ViewVolume<T> const& volume, T const& size, T const& slack) noexcept {
+        std::array<Vec4<T>, 6> const given = inner_planes(volume);
+        for (std::size_t i = 0; i < 4; ++i) {
+            Vec4<T>& plane = planes[i];
+            plane = given[i];
+            T const growth = std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z);
+            wider[i] = slack * (growth * size + std::abs(plane.w));
+            plane.w += wider[i];
+        }
     }
+};
+
+// The twelve edges of the box between the sides, four to an axis.
+template <class T>
+[[gnu::always_inline]] inline void add_box_edges(DepthsOfEdges<T>& depths, Aabb<T> const& body,
+                                                 WidenedSides<T> const& sides, Pose<T> const& pose) noexcept {
+    using Lanes = Lanes<T>;
+    auto const all = [](T value) { return Lanes::all(value); };
     constexpr T none = std::numeric_limits<T>::max();
-    detail::DepthsOfEdges<T> depths{all(none), all(-none)};
-    // The twelve edges of the box, four to an axis: `u` and `v` are where they are on the other two.
     for (int axis = 0; axis < 3; ++axis) {
         int const next = (axis + 1) % 3, after = (axis + 2) % 3;
+        // Where the four are on the other two axes.
         Lanes const u = Lanes::of(body.lo[next], body.hi[next], body.lo[next], body.hi[next]);
         Lanes const v = Lanes::of(body.lo[after], body.lo[after], body.hi[after], body.hi[after]);
         Lanes first = all(body.lo[axis]), last = all(body.hi[axis]);
-        for (std::size_t i = 0; i < 4; ++i) {
-            Vec4<T> const& plane = planes[i];
-            T const inward = detail::not_zero(plane[axis]);
+        for (Vec4<T> const& plane : sides.planes) {
+            T const inward = not_zero(plane[axis]);
             Lanes const root = (u * all(plane[next]) + v * all(plane[after]) + all(plane.w)) * all(T(-1) / inward);
             // It enters where it goes inward, and leaves where not.
             if (inward > T(0))
@@ -119,12 +112,22 @@ template <class T>
         };
         depths.add(depth(first), depth(last), first, last);
     }
-    // The corner edges of the four sides: (left, bottom), (right, bottom), (right, top), (left, top).
+}
+
+// The corner edges of the four sides inside the box: (left, bottom), (right, bottom), (right, top), (left, top).
+template <class T>
+[[gnu::always_inline]] inline void add_corner_edges(DepthsOfEdges<T>& depths, Aabb<T> const& body,
+                                                    WidenedSides<T> const& sides, ViewVolume<T> const& volume,
+                                                    T const& rounding) noexcept {
+    using Lanes = Lanes<T>;
+    auto const all = [](T value) { return Lanes::all(value); };
+    constexpr T none = std::numeric_limits<T>::max();
+    Pose<T> const& pose = volume.pose;
     bool const flat = volume.kind == ViewKind::orthographic;
     Lanes const x = Lanes::of(volume.left, volume.right, volume.right, volume.left);
     Lanes const y = Lanes::of(volume.bottom, volume.bottom, volume.top, volume.top);
-    Lanes const wider_x = Lanes::of(-wider[0], wider[1], wider[1], -wider[0]);
-    Lanes const wider_y = Lanes::of(-wider[2], -wider[2], wider[3], wider[3]);
+    Lanes const wider_x = Lanes::of(-sides.wider[0], sides.wider[1], sides.wider[1], -sides.wider[0]);
+    Lanes const wider_y = Lanes::of(-sides.wider[2], -sides.wider[2], sides.wider[3], sides.wider[3]);
     // Those of a perspective begin at the eye.
     Lanes first = all(flat ? -none : T(0)), last = all(none);
     for (int axis = 0; axis < 3; ++axis) {
@@ -141,13 +144,38 @@ template <class T>
         last = least(last, largest(a, b));
     }
     depths.add(first, last, first, last);
+}
+
+}  // namespace detail
+
+// Depths along `volume` at which the box is inside it: never less than the truth, and more by rounding only. Any finite
+// box will do, however large; the volume must be finite. Not visible where they do not meet.
+//
+// The least and the greatest depth that the box has between the four sides, however far they go, are where its edges
+// enter and leave, where the corner edges of the sides enter and leave the box, or at the eye. What lies between them
+// is one piece: near and far end only cut it off.
+template <class T>
+[[nodiscard]] inline DepthRange<T> depths_inside(Aabb<T> const& box, ViewVolume<T> const& volume) noexcept {
+    if (!all_finite(box) || is_empty(box)) return {};
+    constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
+    Vec3<T> const& eye = volume.pose.position;
+    Aabb<T> const around = merge(bounds_of(corners(volume)), eye);
+    // Whatever does not reach the volume goes first: from here on no number is larger than the volume's own.
+    T const reach = slack * detail::largest_of(around);
+    Aabb<T> const body = intersect(box, Aabb<T>{around.lo - reach, around.hi + reach});
+    if (is_empty(body)) return {};
+    T const size = detail::largest_of(merge(body, eye)), rounding = slack * size;
+    detail::WidenedSides<T> const sides(volume, size, slack);
+    detail::DepthsOfEdges<T> depths;
+    detail::add_box_edges(depths, body, sides, volume.pose);
+    detail::add_corner_edges(depths, body, sides, volume, rounding);
     T lo = depths.lo[0], hi = depths.hi[0];
     for (int i = 1; i < 4; ++i) {
         lo = depths.lo[i] < lo ? depths.lo[i] : lo;
         hi = depths.hi[i] > hi ? depths.hi[i] : hi;
     }
     // The eye, where the sides of a perspective meet: a flat box through it holds that and none of their edges.
-    if (!flat && contains(Aabb<T>{body.lo - rounding, body.hi + rounding}, pose.position)) {
+    if (volume.kind == ViewKind::perspective && contains(Aabb<T>{body.lo - rounding, body.hi + rounding}, eye)) {
         lo = std::fmin(lo, T(0));
         hi = std::fmax(hi, T(0));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Is it a number, and how long is it: the two questions asked at the door of every public function.
+// Is it finite, and how long is it: the two questions that every public function asks of its input.
 //
 // NOTE: under -ffast-math compilers assume that NaN and infinity do not exist and fold std::isnan, x != x and even bit
 // tests of computed values to a constant. What survives is a look at the bits in the memory of the caller's inputs. So

@@ -9,10 +9,8 @@
 //      +---+---+---+---+    axis   +x  -x  +y  -y  +z  -z       of the world
 //      |-x |+z |+x |-z |
 //      +---+---+---+---+    A receiver is looked up in the map of its own face (face_toward). The maps are plain 2D
-// ones
-//          |-y |            for tiles of an atlas, with margins of their own, so filters need no seams between faces.
-// They
-//          +---+            are not the layers of a cube texture: those cannot be zoomed in on.
+//          |-y |            ones for tiles of an atlas, each with its own margin, so that filters see no seams between
+//          +---+            faces; not layers of a cube texture, which cannot be zoomed in on.
 //
 // Source: six perspective faces are common knowledge; the crop is that of fit_spot.
 #pragma once

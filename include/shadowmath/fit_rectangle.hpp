@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The smallest rectangle around a body as the light sees it, at whatever angle: never more texels than fit_box, a
-// quarter fewer over a view frustum in the mean. As with fit_box, size and place change as the camera turns, and
+// The smallest rectangle around a body as the light sees it, at whatever angle: never larger than fit_box, and a
+// quarter smaller on average around a view frustum. As with fit_box, size and place change as the camera turns, and
 // edges crawl; use it where fit_box would do.
 //
 //    ___________         A least rectangle has a side along an edge of the hull (Freeman and Shapira 1975). The hull's

@@ -8,8 +8,8 @@
 // receiver in it is occluded. Moments are of z = 2 depth - 1.
 //
 // Source: Peters and Klein, Moment Shadow Mapping, I3D 2015 (the Hamburger problem); packing and bias as in Peters
-// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being
-// infinite, so there is no receiver for which it divides by zero.
+// et al., JCGT 6(1), 2017. Departure: roots far outside are kept at a bound instead of being infinite, so there is no
+// receiver for which it divides by zero.
 #pragma once
 
 #include <shadowmath/config.hpp>

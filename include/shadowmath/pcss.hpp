@@ -3,9 +3,9 @@
 // Percentage-closer soft shadows: edges that are sharp where the occluder touches and wide where it is far, from one
 // ordinary map. Look for occluders, take their mean gap, filter as wide as the penumbra of that gap.
 //
-// Use it for one light close to the eye, where the softness of a shadow tells how far its caster is; where it does not,
-// filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high one overlap, the
-// edge is of a width in between.
+// Use it for one light whose shadows are close to the eye, where softness tells how far the caster is; where it would
+// not be noticed, filter.hpp costs a tenth. It takes occluders for one plane across the light: where a low and a high
+// one overlap, the width of the edge lies in between.
 //
 // Source: Fernando, SIGGRAPH 2005 Sketches; the disk of taps is Vogel's, Mathematical Biosciences 44, 1979.
 // Departures: gaps instead of linear depths (penumbra.hpp). The search counts an occluder only from inside the cone

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // A map whose four sides are any four lines of the light's plane: the one homography that takes the quadrilateral
-// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared and lopsided ones are all
-// this.
+// between them to the square. Boxes, rotated rectangles, every perspective warp, sheared or lopsided, are all this.
 //
-//          top               Each side is a line l with l(p) >= 0 inside. Of four lines in a plane one combination
-//        ________            vanishes,
-//       /        | .
-// left /         |  right        a left + b right = c bottom + d top,     a, b, c, d > 0,
+//          top               Each side is a line l with l(p) >= 0 inside. One combination of four lines in a plane
+//        ________            is zero everywhere,
+//       /        |
+// left /         | right         a left + b right = c bottom + d top,     a, b, c, d > 0,
 //     /__________|
 //         bottom             and with it w = a left + b right, x = a left - b right, y = c bottom - d top: x = -w on
 //                            the left side, x = w on the right one, w > 0 between.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Where the light that warped maps get first meets the casters' box, four maps at a time: where their depth begins. The
-// inside of slice_warps.hpp; what depth_range.hpp is for sides that are parallel.
+// inside of four_warps.hpp; what depth_range.hpp is for sides that are parallel.
 //
 // Source: ours.
 #pragma once

@@ -15,6 +15,7 @@
 #include <shadowmath/slice_edges.hpp>
 #include <shadowmath/slices.hpp>
 #include <shadowmath/splits.hpp>
+#include <shadowmath/view_of_box.hpp>
 #include <shadowmath/view_volume.hpp>
 #include <shadowmath/wide.hpp>
 

@@ -10,6 +10,7 @@
 //     |/  body \|                     h = h1 (-h2 . l) + h2 (h1 . l),     so that h . l = 0:
 //      \_______/   <- unlit faces
 //                                 a sum of half-spaces of the body with weights >= 0, hence one of the body itself.
+//
 // No edge is ever measured, so short ones do no harm. Faces that meet at a knife's edge make a small sum, of which
 // rounding has its share: so only its direction is used, and the plane put where it touches the body.
 //

@@ -22,9 +22,9 @@
 // not.
 //
 // Source: the "very simple perspective shadow map" of a Korean weblog (2012) in its corrected form; a as in the papers
-// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole of the map
-// is filled, depth is not clipped, the centre of projection is free of the camera, and the strength follows the angle
-// of the light. From the papers: every warp is fitted anew after it, and fades with the same angle.
+// named above, LiSPSM with Scherzer's general tilt. Departures from the weblog: the whole map is filled, depth is not
+// clipped, the centre of projection is free of the camera, and the strength follows the angle of the light. From the
+// papers: the warped view is fitted anew, and every warp fades with the same angle.
 #pragma once
 
 #include <shadowmath/bounds.hpp>

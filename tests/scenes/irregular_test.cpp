@@ -105,34 +105,46 @@ private:
     RTCScene tree_;
 };
 
-struct Compared {
-    std::size_t samples = 0, dark = 0, differing = 0, off_edge = 0;
+struct Seen {
+    std::vector<float> depth = std::vector<float>(std::size_t{width} * height, 0.0f);  // along the frame; 0: sky
+    std::vector<float> normal = std::vector<float>(3 * std::size_t{width} * height, 0.0f);
 };
 
-Compared compare(CasterScene const& scene) {
-    Rays const rays(scene);
-    PixelFrame<float> const frame = pixel_frame(scene.eye, width, height);
-    std::vector<float> depth(std::size_t{width} * height, 0.0f), normal(3 * depth.size(), 0.0f);
+std::size_t pixel_at(int x, int y) {
+    return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+}
+
+Seen seen_through(PixelFrame<float> const& frame, Rays const& rays) {
+    Seen seen;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             glm::vec3 const along = frame.across * (static_cast<float>(x) + 0.5f - 0.5f * width) +
                                     frame.upward * (static_cast<float>(y) + 0.5f - 0.5f * height) + frame.inward;
             RTCRayHit const hit = rays.first_hit(frame.eye, along);
             if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-            std::size_t const pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-            depth[pixel] = hit.ray.tfar;
+            std::size_t const pixel = pixel_at(x, y);
+            seen.depth[pixel] = hit.ray.tfar;
             glm::vec3 const n = glm::normalize(glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z));
-            for (int i = 0; i < 3; ++i) normal[3 * pixel + static_cast<std::size_t>(i)] = n[i];
+            for (int i = 0; i < 3; ++i) seen.normal[3 * pixel + static_cast<std::size_t>(i)] = n[i];
         }
+    return seen;
+}
 
+// What the irregular z-buffer makes of it.
+struct Traced {
+    std::vector<std::uint32_t> masks;
+    double contact_reach = 0.0, contact_ray = 0.0;
+};
+
+Traced traced(CasterScene const& scene, PixelFrame<float> const& frame, Seen const& seen) {
     Aabb<float> const box{{-scene.extent, -scene.height, -scene.extent}, {scene.extent, scene.height, scene.extent}};
     ShadowMap<float> const grid = simple_perspective_map(scene.eye, scene.sun, box, box, {}, gl_zero_to_one_clip);
     StorageSize const need = storage_for(width, height, 64);
     std::vector<float> scalars(need.scalars);
-    std::vector<std::uint32_t> words(need.words), masks(depth.size());
+    std::vector<std::uint32_t> words(need.words);
     Receivers<float> receivers;
-    receivers.depth = depth.data();
-    receivers.normal = normal.data();
+    receivers.depth = seen.depth.data();
+    receivers.normal = seen.normal.data();
     IrregularBuffer<float> buffer =
         list_receivers(frame, receivers, scene.sun, grid, 64, Storage<float>{scalars.data(), words.data(), need});
     EXPECT_FALSE(buffer.faults.any()) << describe(buffer.faults);
@@ -141,62 +153,88 @@ Compared compare(CasterScene const& scene) {
     casters.vertex_count = 3 * scene.triangle_count();
     casters.triangle_count = scene.triangle_count();
     trace(buffer, casters);
-    write_masks(buffer, masks.data());
-
-    PixelFrame<double> const exact = frame_in<double>(frame);
-    ContactContext context{};
-    context.eye = glm::dvec3(frame.eye);
-    context.travel = glm::dvec3(scene.sun.direction);
-    context.metres = contact_share<double> * (1.0 + static_cast<double>(buffer.contact_reach));
-    Compared compared;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            std::size_t const pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-            glm::dvec3 const n(normal[3 * pixel], normal[3 * pixel + 1], normal[3 * pixel + 2]);
-            double const d = static_cast<double>(depth[pixel]);
-            if (!(d > 0.0)) {
-                EXPECT_EQ(masks[pixel], 0u);
-                continue;
-            }
-            MicroQuad<double> const quad = micro_quad(exact, x, y, d, n);
-            glm::dvec3 const middle = point_on(exact, quad, x, y, 0.5, 0.5);
-            double const toward_light = glm::dot(n, context.travel);
-            // At less than a twentieth of a degree rounding of the ray's origin moves shadows by millimetres.
-            if (std::abs(toward_light) < 1e-3) continue;
-            double const facing = toward_light * glm::dot(n, middle - context.eye);
-            compared.samples += 32;
-            if (facing < 0.0) {
-                EXPECT_EQ(masks[pixel], every_sample);
-                continue;
-            }
-            std::uint32_t truth = 0;
-            auto const dark = [&](double u, double v) {
-                context.share_of_depth = contact_share<double> * static_cast<double>(buffer.contact_ray) * d;
-                return rays.dark(point_on(exact, quad, x, y, u, v), context);
-            };
-            for (int s = 0; s < 32; ++s)
-                truth |= (dark(pixel_samples<double>.u[s], pixel_samples<double>.v[s]) ? 1u : 0u) << s;
-            compared.dark += std::bitset<32>(truth).count();
-            for (std::uint32_t wrong = truth ^ masks[pixel]; wrong != 0; wrong &= wrong - 1) {
-                ++compared.differing;
-                int const s = detail::lowest_bit(wrong);
-                // Within rounding of a border: of the rays that start 16 roundings beside it, one sees the other side.
-                double const u = pixel_samples<double>.u[s], v = pixel_samples<double>.v[s];
-                glm::dvec3 const at = point_on(exact, quad, x, y, u, v);
-                double const step = 16.0 * 0x1p-24 * (glm::length(at) + glm::length(at - context.eye));
-                bool mixed = false;
-                for (int i = 0; i < 27; ++i) {
-                    glm::dvec3 const aside(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-                    mixed = mixed || rays.dark(at + aside * step, context) != ((truth >> s & 1u) != 0);
-                }
-                compared.off_edge += mixed ? 0u : 1u;
-            }
-        }
-    return compared;
+    Traced result{std::vector<std::uint32_t>(seen.depth.size()), double(buffer.contact_reach),
+                  double(buffer.contact_ray)};
+    write_masks(buffer, result.masks.data());
+    return result;
 }
 
+struct Compared {
+    std::size_t samples = 0, dark = 0, differing = 0, off_edge = 0;
+};
+
+class Comparison {
+public:
+    explicit Comparison(CasterScene const& scene)
+        : rays_(scene), frame_(pixel_frame(scene.eye, width, height)), exact_(frame_in<double>(frame_)),
+          seen_(seen_through(frame_, rays_)), traced_(traced(scene, frame_, seen_)) {
+        context_.eye = glm::dvec3(frame_.eye);
+        context_.travel = glm::dvec3(scene.sun.direction);
+        context_.metres = contact_share<double> * (1.0 + traced_.contact_reach);
+    }
+
+    Compared of_all_pixels() {
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) compare(x, y);
+        return compared_;
+    }
+
+private:
+    void compare(int x, int y) {
+        std::size_t const pixel = pixel_at(x, y);
+        std::uint32_t const mask = traced_.masks[pixel];
+        double const depth = static_cast<double>(seen_.depth[pixel]);
+        if (!(depth > 0.0)) {
+            EXPECT_EQ(mask, 0u);
+            return;
+        }
+        float const* const n = &seen_.normal[3 * pixel];
+        glm::dvec3 const normal(n[0], n[1], n[2]);
+        MicroQuad<double> const quad = micro_quad(exact_, x, y, depth, normal);
+        double const toward_light = glm::dot(normal, context_.travel);
+        // At less than a twentieth of a degree rounding of the ray's origin moves shadows by millimetres.
+        if (std::abs(toward_light) < 1e-3) return;
+        double const facing = toward_light * glm::dot(normal, point_on(exact_, quad, x, y, 0.5, 0.5) - context_.eye);
+        compared_.samples += 32;
+        if (facing < 0.0) {
+            EXPECT_EQ(mask, every_sample);
+            return;
+        }
+        context_.share_of_depth = contact_share<double> * traced_.contact_ray * depth;
+        auto const sample = [&](int s) {
+            return point_on(exact_, quad, x, y, pixel_samples<double>.u[s], pixel_samples<double>.v[s]);
+        };
+        std::uint32_t truth = 0;
+        for (int s = 0; s < 32; ++s) truth |= (rays_.dark(sample(s), context_) ? 1u : 0u) << s;
+        compared_.dark += std::bitset<32>(truth).count();
+        for (std::uint32_t wrong = truth ^ mask; wrong != 0; wrong &= wrong - 1) {
+            ++compared_.differing;
+            int const s = detail::lowest_bit(wrong);
+            compared_.off_edge += is_on_an_edge(sample(s), (truth >> s & 1u) != 0) ? 0u : 1u;
+        }
+    }
+
+    // Within rounding of a border: of the rays that start 16 roundings beside the sample, one sees the other side.
+    [[nodiscard]] bool is_on_an_edge(glm::dvec3 const& sample, bool dark) const {
+        double const step = 16.0 * 0x1p-24 * (glm::length(sample) + glm::length(sample - context_.eye));
+        for (int i = 0; i < 27; ++i) {
+            glm::dvec3 const aside(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+            if (rays_.dark(sample + aside * step, context_) != dark) return true;
+        }
+        return false;
+    }
+
+    Rays rays_;
+    PixelFrame<float> frame_;
+    PixelFrame<double> exact_;
+    Seen seen_;
+    Traced traced_;
+    ContactContext context_{};
+    Compared compared_;
+};
+
 void expect_agreement(CasterScene const& scene) {
-    Compared const compared = compare(scene);
+    Compared const compared = Comparison(scene).of_all_pixels();
     double const millionths = 1e6 * static_cast<double>(compared.differing) / static_cast<double>(compared.samples);
     std::printf("%s, %u triangles: %.1f million samples, %.1f %% dark, %.2f ppm differ, %zu of them off an edge\n",
                 scene.name.c_str(), scene.triangle_count(), 1e-6 * static_cast<double>(compared.samples),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+//
+// The bias of a map, in texels and metres. Of its depth and of offsets along the normal: the files beside.
 #include "tests/laws/bias.hpp"
+#include "tests/support/overhead_map.hpp"
 #include "tests/support/watched.hpp"
-
-#include <shadowmath/light_box.hpp>
-#include <shadowmath/view_volume.hpp>
 
 #include <gtest/gtest.h>
 
@@ -12,25 +12,9 @@
 #include <limits>
 
 using namespace shadowmath;
+using namespace shadowmath::test;
 
 namespace {
-
-// 10 m by 20 m across, 40 m deep, light straight down: x of the map is x of the world, y is -z, depth is -y.
-struct Overhead {
-    Light<double> light = directional(Vec3<double>(0, -1, 0));
-    ShadowMap<double> map;
-
-    explicit Overhead(ClipSpace clip = gl_zero_to_one_clip) {
-        LightBox<double> box;
-        box.lo = Vec2<double>(-5, -10);
-        box.hi = Vec2<double>(5, 10);
-        box.depth_lo = -20;
-        box.depth_hi = 20;
-        map.clip_from_world = clip_from_world(box, clip);
-        map.clip = clip;
-        map.visible = true;
-    }
-};
 
 BiasOptions<double> nothing() {
     BiasOptions<double> options;
@@ -40,70 +24,7 @@ BiasOptions<double> nothing() {
     return options;
 }
 
-ShadowMap<double> spot_map(double z_near, double z_far) {
-    ShadowMap<double> map;
-    Pose<double> const pose = pose_looking(Vec3<double>(0), Vec3<double>(0, -1, 0), Vec3<double>(0, 0, 1));
-    map.clip_from_world = clip_from_world(perspective_view(pose, 1.0, 1.0, z_near, z_far), gl_zero_to_one_clip);
-    map.clip = gl_zero_to_one_clip;
-    map.visible = true;
-    return map;
-}
-
 }  // namespace
-
-TEST(Slope, OfALeaningPlaneIsItsTangentTimesTheTexelOverTheDepth) {
-    // y rises by 0.5 a metre of x: depth falls by 0.5 m a metre. A texel of 100 is 0.1 m wide; the map 40 m deep.
-    Overhead const overhead;
-    DepthSlope<double> const s = slope(overhead.map, 100, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0);
-    EXPECT_NEAR(s.x, -0.5 * 0.1 / 40, 1e-15);
-    EXPECT_NEAR(s.y, 0.0, 1e-15);
-}
-
-TEST(Slope, IsNegatedByReversedDepthAndByFlippedTextures) {
-    Vec3<double> const point(1, 0.5, 3), normal(-0.5, 1, 0.7);
-    DepthSlope<double> const s = slope(Overhead().map, 100, point, normal, 1.0);
-    DepthSlope<double> const turned = slope(Overhead(reversed(gl_zero_to_one_clip)).map, 100, point, normal, 1.0);
-    EXPECT_NEAR(turned.x, -s.x, 1e-15);
-    EXPECT_NEAR(turned.y, -s.y, 1e-15);
-    DepthSlope<double> const flipped = slope(Overhead(d3d_clip).map, 100, point, normal, 1.0);
-    EXPECT_NEAR(flipped.x, s.x, 1e-15);
-    EXPECT_NEAR(flipped.y, -s.y, 1e-15);
-    // Stored depth is half of OpenGL's NDC depth, so the default convention has the same slope.
-    DepthSlope<double> const halved = slope(Overhead(gl_clip).map, 100, point, normal, 1.0);
-    EXPECT_NEAR(halved.x, s.x, 1e-15);
-}
-
-TEST(Slope, OfAPlaneThatTheLightGrazesIsTheLimit) {
-    Overhead const overhead;
-    DepthSlope<double> const s = slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(1, 0, 0), 0.01);
-    EXPECT_EQ(std::abs(s.x), 0.01);
-    EXPECT_LE(std::abs(s.y), 0.01);
-}
-
-TEST(Slope, WithoutANormalOrAMapIsZero) {
-    Overhead const overhead;
-    for (auto const& s :
-         {slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0), 1.0),
-          slope(overhead.map, 0, Vec3<double>(0), Vec3<double>(1, 1, 1), 1.0),
-          slope(spot_map(1, 10), 100, Vec3<double>(0, 5, 0), Vec3<double>(1, 1, 1), 1.0),
-          slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(1, 1, 1), std::numeric_limits<double>::quiet_NaN())}) {
-        EXPECT_EQ(s.x, 0.0);
-        EXPECT_EQ(s.y, 0.0);
-    }
-}
-
-TEST(DepthGain, IsOneOverTheDepthOfAPlainMapInEveryConvention) {
-    for (ClipSpace clip : {gl_clip, vulkan_clip, reversed(vulkan_clip), d3d_clip})
-        EXPECT_NEAR(depth_gain(Overhead(clip).map, Overhead().light), 1.0 / 40, 1e-16);
-}
-
-TEST(DepthShift, OfASpotFollowsItsPerspective) {
-    // Depth f/(f-n) (1 - n/d), pulled from 8 m to 7.5 m.
-    Light<double> const light = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
-    double const wanted = 10.0 / 9 * (1 / 7.5 - 1 / 8.0);
-    EXPECT_NEAR(depth_shift(spot_map(1, 10), light, Vec3<double>(0, -8, 0), 0.5), wanted, 1e-14);
-    EXPECT_EQ(depth_shift(spot_map(1, 10), light, Vec3<double>(0, 8, 0), 0.5), 0.0) << "behind the light";
-}
 
 TEST(DepthBias, AtNoDistanceFromALampIsNothingAndRaisesNoFlag) {
     MapBias<float> bias;
@@ -114,6 +35,13 @@ TEST(DepthBias, AtNoDistanceFromALampIsNothingAndRaisesNoFlag) {
         EXPECT_EQ(amount.raised, 0);
     }
     EXPECT_EQ(depth_bias(bias, 0.5f, {}), 0.5f);
+}
+
+TEST(DepthBias, IsNeverNegative) {
+    MapBias<double> bias;
+    bias.constant = -0.25;
+    EXPECT_EQ(depth_bias(bias, 1.0, {}), 0.0);
+    EXPECT_EQ(depth_bias(bias, 1.0, {0.0, 0.0}), 0.0);
 }
 
 TEST(BiasFor, MetresOfAPlainMapAreAConstantShareOfItsDepth) {
@@ -142,12 +70,6 @@ TEST(BiasFor, KnowsAMapOfOneTexel) {
     EXPECT_EQ(bias_for(overhead.map, overhead.light, 0, options).constant, 0.0);
 }
 
-TEST(NormalOffsetAt, IsZeroInAMapWithoutDepth) {
-    Overhead overhead;
-    for (int column = 0; column < 4; ++column) overhead.map.clip_from_world[column][2] = 0;
-    EXPECT_EQ(normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(0, 1, 0), 1.0), 0.0);
-}
-
 TEST(BiasFor, FlatTexelsAreTexelsOfAPlaneAtHalfARightAngle) {
     // A texel of 100 is 0.1 m wide; the map 40 m deep.
     Overhead const overhead;
@@ -168,12 +90,6 @@ TEST(BiasFor, FlatTexelsOfASpotGrowWithItsTexelsAndShrinkWithItsDepth) {
         double const added = depth_bias(bias, d, {}) - depth_bias(none, d, {});
         EXPECT_NEAR(added, 2 * (2 * d * std::tan(0.5) / 100) * (10.0 / (9 * d * d)), 1e-12) << d;
     }
-}
-
-TEST(Lean, IsZeroInAnAffineMapWhateverTheLight) {
-    DepthSlope<double> const own = lean(Overhead().map, 100, Vec3<double>(1, 0.5, 3), 1.0);
-    EXPECT_NEAR(own.x, 0.0, 1e-15);
-    EXPECT_NEAR(own.y, 0.0, 1e-15);
 }
 
 TEST(BiasFor, TheKernelCountsOnlyWhereTapsDoNotFollowThePlane) {
@@ -233,17 +149,6 @@ TEST(BiasFor, ALightWithoutDirectionOrAMapOfNothingGetsNoBias) {
     }
 }
 
-TEST(BiasFor, AnOptionThatIsNoNumberCountsAsNone) {
-    Overhead const overhead;
-    BiasOptions<double> odd = nothing();
-    odd.metres = odd.texels = odd.flat_texels = std::numeric_limits<double>::quiet_NaN();
-    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, odd);
-    MapBias<double> const none = bias_for(overhead.map, overhead.light, 100, nothing());
-    EXPECT_EQ(bias.constant, none.constant);
-    EXPECT_EQ(bias.per_inverse_w, none.per_inverse_w);
-    EXPECT_EQ(bias.slope_texels, none.slope_texels);
-}
-
 // Each of them alone comes to more than the type holds.
 TEST(BiasFor, OptionsThatComeToNothingFiniteGiveNoBias) {
     Overhead const overhead;
@@ -270,30 +175,6 @@ TEST(BiasFor, OptionsThatComeToNothingFiniteGiveNoBias) {
     EXPECT_GT(bias_for(overhead.map, overhead.light, 100, metres).constant, 1e300);
 }
 
-TEST(DepthShift, IsNeverMoreThanTheWholeDepth) {
-    Overhead const overhead;
-    EXPECT_DOUBLE_EQ(depth_shift(overhead.map, overhead.light, Vec3<double>(0), 39.0), 39.0 / 40.0);
-    EXPECT_EQ(depth_shift(overhead.map, overhead.light, Vec3<double>(0), 41.0), 1.0);
-    EXPECT_EQ(depth_shift(overhead.map, overhead.light, Vec3<double>(0), 1e300), 1.0);
-}
-
-TEST(NormalOffset, IsTheTableOfTheKernelsReachAndTheSineOfTheAngle) {
-    Vec3<double> const up(0, 1, 0), low = glm::normalize(Vec3<double>(1, 1, 0));
-    EXPECT_NEAR(normal_offset_metres(0.1, 1, up, low), std::sqrt(2.0) * 1.5 * 0.1 * std::sqrt(0.5), 1e-15);
-    EXPECT_EQ(normal_offset_metres(0.1, 1, up, up), 0.0);
-    EXPECT_EQ(normal_offset_metres(-0.1, 1, up, low), 0.0);
-}
-
-TEST(SpannedByTexel, IsThatOfTheShortestTexelAlongTheAxis) {
-    // NDC x = X.p / W.p changes by |X - x W| a metre: least where x is 0.9, and at x = 1 where that is outside the map.
-    auto const map = [](double along_w) {
-        return from_rows(Vec4<double>(along_w, 0, 1, 0), Vec4<double>(0, 1, 0, 0), Vec4<double>(0, 0, 0, 0.5),
-                         Vec4<double>(1, 0, 0, 3));
-    };
-    EXPECT_NEAR(detail::spanned_by_texel(map(0.9), 0, 100, 1.0), 2.0 / 100, 1e-15);
-    EXPECT_NEAR(detail::spanned_by_texel(map(5.0), 0, 100, 1.0), 2.0 / (100 * std::sqrt(17.0)), 1e-15);
-}
-
 TEST(BiasFor, SlopesOfAWarpLeanAsMuchAsTheWorseOfItsEnds) {
     // Depth leans by 0.05 a metre at its near end, and by 0.05 - 0.1 at its far one.
     Overhead overhead;
@@ -307,38 +188,35 @@ TEST(BiasFor, SlopesOfAWarpLeanAsMuchAsTheWorseOfItsEnds) {
                 detail::steepest_texel(canonical, 100, 0.05) * detail::worst_shear(canonical), 1e-12);
 }
 
-TEST(NormalOffset, OfAPlainMapIsTheKernelsReachTimesTheSine) {
-    double const nan = std::numeric_limits<double>::quiet_NaN(), reach = 1.5 * std::sqrt(2.0) * 0.1;
-    Vec3<double> const up(0, 1, 0), aside(1, 0, 0);
-    EXPECT_NEAR(normal_offset_metres(0.1, 1, up, aside), reach, 1e-15);
-    EXPECT_NEAR(normal_offset_metres(0.1, 1, up, Vec3<double>(0.6, 0.8, 0)), reach * 0.6, 1e-15);
-    EXPECT_NEAR(normal_offset_metres(0.1, 1, up * 3.0, aside), reach, 1e-15) << "a sine is at most 1";
-    EXPECT_EQ(normal_offset_metres(0.1, 1, Vec3<double>(nan), aside), 0.0);
-    EXPECT_EQ(normal_offset_metres(0.1, 1, up, Vec3<double>(nan)), 0.0);
-    EXPECT_EQ(normal_offset_metres(nan, 1, up, aside), 0.0);
-    EXPECT_EQ(normal_offset_metres(-0.1, 1, up, aside), 0.0);
-    EXPECT_EQ(normal_offset_metres(std::numeric_limits<double>::max(), 9, up, aside), 0.0) << "more than all numbers";
+TEST(BiasFor, OptionsThatAreNoNumbersCountAsNone) {
+    Overhead const overhead;
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    BiasOptions<double> options = nothing();
+    MapBias<double> const none = bias_for(overhead.map, overhead.light, 100, options);
+    options.depth_step = options.metres = options.flat_texels = options.texels = nan;
+    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
+    EXPECT_EQ(bias.constant, none.constant);
+    EXPECT_EQ(bias.per_inverse_w, none.per_inverse_w);
+    EXPECT_EQ(bias.slope_texels, none.slope_texels);
+    EXPECT_EQ(bias_at(overhead.map, overhead.light, 100, options, Vec3<double>(0)).constant, none.constant);
 }
 
-TEST(NormalOffsetAt, OfASpotIsTheShareOfTheWayThatBringsThePlaneBeforeItsTexels) {
-    // Off the origin: what counts is the distance to the lamp.
-    Vec3<double> const place(3, 4, 5);
-    Light<double> const lamp = spot(place, Vec3<double>(0, -1, 0), 0.5, 10.0);
-    ShadowMap<double> map = spot_map(1, 10);
-    for (int column = 0; column < 3; ++column) map.clip_from_world[3] -= map.clip_from_world[column] * place[column];
-    Vec3<double> const point = place + Vec3<double>(0.5, -4, 0.3), normal = glm::normalize(Vec3<double>(0.6, 1, -0.2));
-    DepthSlope<double> const s = slope(map, 100, point, normal, 1e6);
-    double const needed = 1.5 * (std::abs(s.x) + std::abs(s.y)) / depth_gain(map, lamp), raised = needed * 4;
-    double const distance = glm::length(point - place), cosine = glm::dot(normal, (place - point) / distance);
-    double const wanted = cosine * distance * raised / (1 + raised);
-    EXPECT_NEAR(normal_offset_at(map, lamp, 100, 1, point, normal, 9.0), wanted, 1e-12);
-    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, normal, wanted / 2), wanted / 2);
-    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, -normal, 9.0), 0.0) << "faces away";
-    double const nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, place + Vec3<double>(0, 4, 0), normal, 9.0), 0.0) << "behind";
-    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, Vec3<double>(nan), 9.0), 0.0);
-    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, normal, nan), 0.0);
-    EXPECT_EQ(normal_offset_at(map, lamp, 100, 1, point, normal, -1.0), 0.0);
+TEST(BiasFor, OfASpotInAMapThatKnowsNoDistanceIsWhatTheFormatLoses) {
+    Overhead const overhead;
+    Light<double> const lamp = spot(Vec3<double>(0, 30, 0), Vec3<double>(0, -1, 0), 0.5, 60.0);
+    BiasOptions<double> options;
+    MapBias<double> const bias = bias_for(overhead.map, lamp, 100, options);
+    EXPECT_EQ(bias.constant, 2 * options.depth_step);
+}
+
+TEST(SpannedByTexel, IsThatOfTheShortestTexelAlongTheAxis) {
+    // NDC x = X.p / W.p changes by |X - x W| a metre: least where x is 0.9, and at x = 1 where that is outside the map.
+    auto const map = [](double along_w) {
+        return from_rows(Vec4<double>(along_w, 0, 1, 0), Vec4<double>(0, 1, 0, 0), Vec4<double>(0, 0, 0, 0.5),
+                         Vec4<double>(1, 0, 0, 3));
+    };
+    EXPECT_NEAR(detail::spanned_by_texel(map(0.9), 0, 100, 1.0), 2.0 / 100, 1e-15);
+    EXPECT_NEAR(detail::spanned_by_texel(map(5.0), 0, 100, 1.0), 2.0 / (100 * std::sqrt(17.0)), 1e-15);
 }
 
 TEST(WorstShear, IsThatOfTheWorstCorner) {
@@ -384,80 +262,6 @@ TEST(EndsOfAxis, AreOneOverTheDistancesOfNearAndFar) {
     }
 }
 
-TEST(DepthGain, OfAMapThatIsNoNumberIsZero) {
-    Overhead overhead;
-    overhead.map.clip_from_world[1][2] = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(depth_gain(overhead.map, overhead.light), 0.0);
-}
-
-TEST(Slope, KnowsAMapOfOneTexel) {
-    Overhead const overhead;
-    EXPECT_NEAR(slope(overhead.map, 1, Vec3<double>(1, 0.5, 3), Vec3<double>(-0.5, 1, 0), 1.0).x, -0.5 * 10 / 40,
-                1e-14);
-}
-
-TEST(BiasFor, OptionsThatAreNoNumbersCountAsNone) {
-    Overhead const overhead;
-    double const nan = std::numeric_limits<double>::quiet_NaN();
-    BiasOptions<double> options = nothing();
-    MapBias<double> const none = bias_for(overhead.map, overhead.light, 100, options);
-    options.depth_step = options.metres = options.flat_texels = options.texels = nan;
-    MapBias<double> const bias = bias_for(overhead.map, overhead.light, 100, options);
-    EXPECT_EQ(bias.constant, none.constant);
-    EXPECT_EQ(bias.slope_texels, none.slope_texels);
-    EXPECT_EQ(bias_at(overhead.map, overhead.light, 100, options, Vec3<double>(0)).constant, none.constant);
-}
-
-TEST(Slope, InAMapWithoutExtentIsZeroAndDividesByNothing) {
-    Overhead overhead;
-    Vec4<double> const none(0.0);
-    overhead.map.clip_from_world = from_rows(none, none, none, Vec4<double>(0, 0, 0, 1));
-    auto const run =
-        test::watched([&] { return slope(overhead.map, 100, Vec3<double>(0), Vec3<double>(0, 1, 1), 1.0).x; });
-    EXPECT_EQ(run.result, 0.0);
-    EXPECT_TRUE(run.calm_in_range());
-}
-
-// Gains too small, or too large, to be multiplied with each other.
-TEST(Slope, IsThatOfItsTexelsHoweverLargeTheMapsUnitIs) {
-    Overhead const overhead;
-    for (double const unit : {1e-200, 1e200}) {
-        ShadowMap<double> map = overhead.map;
-        for (int r : {0, 1, 2})
-            for (int c : {0, 1, 2}) map.clip_from_world[c][r] *= unit;
-        DepthSlope<double> const s = slope(map, 100, Vec3<double>(0), Vec3<double>(-0.5, 1, 0), 1.0);
-        EXPECT_NEAR(s.x, -0.5 * 0.1 / 40, 1e-15) << unit;
-        EXPECT_NEAR(s.y, 0.0, 1e-15) << unit;
-    }
-}
-
-TEST(DepthGain, BeyondWhatItsTypeHoldsIsZero) {
-    Overhead overhead;
-    Light<double> const aslant = directional(Vec3<double>(1, 1, 1));
-    double const most = std::numeric_limits<double>::max();
-    for (int c : {0, 1, 2}) overhead.map.clip_from_world[c][2] = most;
-    EXPECT_EQ(depth_gain(overhead.map, aslant), 0.0);
-}
-
-TEST(DepthBias, IsNeverNegative) {
-    MapBias<double> bias;
-    bias.constant = -0.25;
-    EXPECT_EQ(depth_bias(bias, 1.0, {}), 0.0);
-    EXPECT_EQ(depth_bias(bias, 1.0, {0.0, 0.0}), 0.0);
-}
-
-TEST(NormalOffsetAt, OfANormalThatIsNotFiniteIsZeroAndRaisesNoFlag) {
-    Overhead const overhead;
-    for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        auto const run = test::watched([&] {
-            return normal_offset_at(overhead.map, overhead.light, 100, 1, Vec3<double>(0), Vec3<double>(bad, 1, 0),
-                                    1.0);
-        });
-        EXPECT_EQ(run.result, 0.0);
-        EXPECT_TRUE(run.calm_in_range());
-    }
-}
-
 TEST(EndsOfAxis, EndAtInfinityWhereDepthNeverComesToOne) {
     Light<double> const lamp = spot(Vec3<double>(0), Vec3<double>(0, -1, 0), 0.5, 10.0);
     Mat4<double> canonical = spot_map(2, 10).clip_from_world;
@@ -466,12 +270,4 @@ TEST(EndsOfAxis, EndAtInfinityWhereDepthNeverComesToOne) {
     auto const ends = detail::ends_of_axis(canonical, lamp, 2.5 * 0.9 / 1.25);
     EXPECT_NEAR(ends.nearest, 0.5, 1e-14);
     EXPECT_EQ(ends.farthest, 0.0);
-}
-
-TEST(BiasFor, OfASpotInAMapThatKnowsNoDistanceIsWhatTheFormatLoses) {
-    Overhead const overhead;
-    Light<double> const lamp = spot(Vec3<double>(0, 30, 0), Vec3<double>(0, -1, 0), 0.5, 60.0);
-    BiasOptions<double> options;
-    MapBias<double> const bias = bias_for(overhead.map, lamp, 100, options);
-    EXPECT_EQ(bias.constant, 2 * options.depth_step);
 }

@@ -55,7 +55,8 @@ struct Street {
                 auto const tile = std::size_t(y / fine * width + x / fine);
                 nearest[tile] = std::min(nearest[tile], depth);
                 farthest[tile] = std::max(farthest[tile], depth);
-                if (x % sample_every == sample_every / 2 && y % sample_every == sample_every / 2) samples.push_back(hit);
+                if (x % sample_every == sample_every / 2 && y % sample_every == sample_every / 2)
+                    samples.push_back(hit);
             }
     }
     static double side_of(int i, int count, double lo, double hi) { return lo + (hi - lo) * (i + 0.5) / count; }
@@ -297,9 +298,9 @@ TEST(ChooseMaps, OfNothingIsNothingAndNoFault) {
         << "no tiles";
     EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.boxes.data(), 0, limits, work)))
         << "no boxes";
-    EXPECT_TRUE(is_nothing(choose_maps(street.view, morning, town, street.samples.data(), int(street.samples.size()),
-                                       DepthTiles<double>{street.nearest.data(), street.farthest.data(), 4, 0}, limits,
-                                       work)))
+    EXPECT_TRUE(
+        is_nothing(choose_maps(street.view, morning, town, street.samples.data(), int(street.samples.size()),
+                               DepthTiles<double>{street.nearest.data(), street.farthest.data(), 4, 0}, limits, work)))
         << "no row of tiles";
     MapLimits<double> countless;
     countless.eye_pixels = V2(std::numeric_limits<double>::max());
@@ -399,9 +400,9 @@ TEST(ChooseMaps, OfMoreTilesThanASearchHoldsItLooksAtSomeFromEverywhere) {
     for (int i = 0; i < street.width * street.height; ++i) {
         auto const tile = std::size_t(i);
         if (!(street.nearest[tile] <= street.farthest[tile])) continue;
-        V3 const point = point_at(street.view, Street::side_of(i % 48, 48, street.view.left, street.view.right),
-                                  Street::side_of(i / 48, 30, street.view.bottom, street.view.top),
-                                  street.farthest[tile]);
+        V3 const point =
+            point_at(street.view, Street::side_of(i % 48, 48, street.view.left, street.view.right),
+                     Street::side_of(i / 48, 30, street.view.bottom, street.view.top), street.farthest[tile]);
         EXPECT_GE(laws::server_of(clean, MapLimits<double>{}, point, 1e-9), 0);
     }
     // Of the sky, and so none before either: not finite, turned over, behind the eye, beyond the view.

@@ -243,15 +243,15 @@ TEST(Choose, ThatSeesNothingWeighsNoWarpsEither) {
     given.fit = CascadeFit::warped;
     ChoiceLimits<double> limits;
     limits.most_maps = 1;
-    Choice<double> const choice = choose(street_view(), morning, town, town, static_cast<SurfacePoint<double>*>(nullptr),
-                                         0, given, limits);
+    Choice<double> const choice =
+        choose(street_view(), morning, town, town, static_cast<SurfacePoint<double>*>(nullptr), 0, given, limits);
     EXPECT_FALSE(choice.visible);
     EXPECT_EQ(choice.options.fit, CascadeFit::warped);
     limits.motion = Motion::any;
     int const every_fit = 5;
-    EXPECT_EQ(choose(street_view(), morning, town, town, static_cast<SurfacePoint<double>*>(nullptr), 0, given, limits)
-                  .tried,
-              every_fit);
+    EXPECT_EQ(
+        choose(street_view(), morning, town, town, static_cast<SurfacePoint<double>*>(nullptr), 0, given, limits).tried,
+        every_fit);
 }
 
 TEST(MapSizeWithin, IsTheLargestMultipleOfFourThatFits) {

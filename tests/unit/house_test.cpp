@@ -195,7 +195,12 @@ TEST(House, EveryHeaderHasLawsOrAUnitTest) {
                                                      {"cover", "trace"},
                                                      {"plain_lanes", "irregular_lanes"},
                                                      {"x86_lanes", "irregular_lanes"},
+                                                     {"bounds_of_body", "projected_bounds"},
+                                                     {"bounds_of_boxes", "projected_bounds"},
                                                      {"slice_edges", "slices_in_scene"},
+                                                     {"view_of_box", "slices_in_scene"},
+                                                     {"four_warps", "slice_warps"},
+                                                     {"warped_edges", "slice_warps"},
                                                      {"shafts_of_light", "slice_warps"}};
     for (fs::path const& header : sources_under("include/shadowmath")) {
         std::string name = header.stem().string();

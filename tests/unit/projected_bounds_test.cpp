@@ -174,6 +174,30 @@ TEST(ProjectedBounds, OfThousandsHoldTheOneThatReachesFartherOnOneSide) {
     }
 }
 
+TEST(ProjectedBounds, OfThousandsFindWhatIsInFrontAfterAThousandThatAreNot) {
+    int const behind = 1100, count = 2000;
+    glm::vec3 const forward = glm::normalize(glm::vec3(1, 0.3f, -1));
+    ViewVolume<float> const view =
+        perspective_view(pose_looking(glm::vec3(0), forward, glm::vec3(0, 1, 0)), 1.2f, 1.3f, 0.1f, 1000.0f);
+    glm::mat4 const matrix = clip_from_world(view, ClipSpace{});
+    std::vector<Aabb<float>> boxes;
+    std::vector<float> columns[6];
+    for (int i = 0; i < count; ++i) {
+        glm::vec3 const at = i < behind ? glm::vec3(-500, -10, 500) : glm::vec3(i % 7 - 60, 3, -250 - i % 11);
+        boxes.push_back({at, at + 1.0f});
+        for (int axis = 0; axis < 3; ++axis) {
+            columns[axis].push_back(boxes.back().lo[axis]);
+            columns[axis + 3].push_back(boxes.back().hi[axis]);
+        }
+    }
+    BoxArrays<float> const arrays{columns[0].data(), columns[1].data(), columns[2].data(),
+                                  columns[3].data(), columns[4].data(), columns[5].data()};
+    EXPECT_TRUE(is_empty(projected_bounds(matrix, arrays, behind, 0.1f)));
+    Aabb<float> const together = projected_bounds(matrix, arrays, count, 0.1f);
+    EXPECT_FALSE(is_empty(together));
+    EXPECT_TRUE(laws::are_the_merged_bounds(matrix, boxes.data(), count, 0.1f, together));
+}
+
 TEST(ProjectedBounds, AreTheSameForAnyMultipleOfTheMatrix) {
     glm::dmat4 const clip = clip_from_world(
         perspective_view(pose_looking(V3(1, 2, 3), V3(0.3, -0.2, -1), V3(0, 1, 0)), 1.2, 1.3, 1.0, 100.0), ClipSpace{});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/laws/region.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/town.hpp"
 #include "tests/support/watched.hpp"
 
 #include <shadowmath/region.hpp>
@@ -10,19 +11,7 @@
 #include <limits>
 
 using namespace shadowmath;
-
-namespace {
-
-using V2 = glm::dvec2;
-using V3 = glm::dvec3;
-using V4 = glm::dvec4;
-
-V3 ndc(glm::dmat4 const& m, V3 const& p) {
-    V4 const at = m * V4(p, 1.0);
-    return V3(at) / at.w;
-}
-
-}  // namespace
+using namespace shadowmath::test;
 
 TEST(Region, OfTheWholeMapIsTheIdentity) {
     EXPECT_EQ(region_matrix(Region<float>{}), glm::mat4(1.0f));

@@ -135,8 +135,8 @@ TYPED_TEST(SliceWarps, AreWhatTheirTwinsAreOfOptionsThatAreNoNumbers) {
     using T = TypeParam;
     constexpr T nan = std::numeric_limits<T>::quiet_NaN();
     WarpOptions<T> const good = this->options;
-    for (T WarpOptions<T>::*spoilt : {&WarpOptions<T>::strength, &WarpOptions<T>::focus_metres,
-                                      &WarpOptions<T>::coefficient}) {
+    for (T WarpOptions<T>::*spoilt :
+         {&WarpOptions<T>::strength, &WarpOptions<T>::focus_metres, &WarpOptions<T>::coefficient}) {
         this->options = good;
         this->options.*spoilt = nan;
         unsigned const visible = this->fitted(this->town);
@@ -155,9 +155,9 @@ TYPED_TEST(SliceWarps, OfMoreSplitsThanThereIsRoomForWriteNothing) {
     many.count = max_splits + 1;
     ShadowMap<T> const before;
     this->maps[0].faults = Fault::bad_region;
-    EXPECT_EQ(fit_slice_warps(this->view, this->sun, many, T(0), this->town, this->town, this->options, gl_clip,
-                              this->maps),
-              0u);
+    EXPECT_EQ(
+        fit_slice_warps(this->view, this->sun, many, T(0), this->town, this->town, this->options, gl_clip, this->maps),
+        0u);
     EXPECT_EQ(this->maps[0].faults.bits, Faults(Fault::bad_region).bits);
     EXPECT_EQ(this->maps[1].faults.bits, before.faults.bits);
 }

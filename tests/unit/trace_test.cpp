@@ -107,7 +107,8 @@ TYPED_TEST(Tracing, FullCoverByThousandsOfTrianglesGivesAllOnes) {
                 mesh.push_back(triangle);
         }
     ASSERT_GT(mesh.size(), std::size_t(this->width * this->height));
-    auto const whole = this->under_sun(this->quad(V(-8, T(1.5), -8), V(8, T(1.5), -8), V(8, T(1.5), 8), V(-8, T(1.5), 8)));
+    auto const whole =
+        this->under_sun(this->quad(V(-8, T(1.5), -8), V(8, T(1.5), -8), V(8, T(1.5), 8), V(-8, T(1.5), 8)));
     ASSERT_EQ(this->dark_samples(whole), std::size_t(32 * this->width * this->height));
     for (int const map_size : {1, 16, 64}) EXPECT_EQ(this->under_sun(mesh, map_size), whole) << map_size;
 }

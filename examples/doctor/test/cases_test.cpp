@@ -7,27 +7,18 @@
 #include "examples/doctor/picture.hpp"
 #include "examples/doctor/report.hpp"
 #include "examples/doctor/sample_cases.hpp"
+#include "examples/doctor/test/case_files.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 using namespace shadowmath;
 using namespace shadowmath::doctor;
 
 namespace {
-
-std::filesystem::path const folder = DOCTOR_CASES;
-
-std::string text_of(std::filesystem::path const& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 struct Examined {
     Case read;
@@ -107,6 +98,8 @@ TEST(DoctorCases, AreWhatTheRecipesMake) {
         for (std::size_t i = 0; i < made.size(); ++i)
             EXPECT_NEAR(committed[i], made[i], 1e-4 * std::max(1.0, std::abs(made[i]))) << file << ", number " << i;
     }
+    for (auto const& entry : std::filesystem::directory_iterator(folder))
+        EXPECT_EQ(sample_cases().count(entry.path().filename().string()), 1u) << entry.path() << ": no recipe makes it";
 }
 
 TEST(DoctorCases, ThePageExplainsEveryWordThatTheDoctorUses) {

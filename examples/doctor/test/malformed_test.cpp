@@ -3,6 +3,7 @@
 // What is no case is said in one line, with the line of the file and what was expected there.
 #include "examples/doctor/case.hpp"
 #include "examples/doctor/json_tree.hpp"
+#include "examples/doctor/test/case_files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -10,20 +11,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 using namespace shadowmath::doctor;
 
 namespace {
-
-std::filesystem::path const folder = DOCTOR_CASES;
-
-std::string text_of(std::filesystem::path const& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 std::string good() {
     return text_of(folder / "good.json");

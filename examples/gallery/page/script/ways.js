@@ -95,8 +95,8 @@ function fitsFound() {
 function verdict() {
   if (!judged) return "These drivers do not share a rasteriser, so their differences are told but not judged.";
   return broken.length ? `Broken here, against what is promised: ${broken.join("; ")}.` :
-    "Nothing that is promised is broken here: the same texels covered, depths within 2 ulp, pixels alike off edges, the same maps " +
-    "in every way, no triangle drawn into a map that its object does not cast into, and the device’s fits those of the C++.";
+    "Nothing that is promised is broken here: the same texels covered, depths within 2 ulp, pixels alike off edges, the same maps and " +
+    "picture in every way, no triangle drawn into a map that its object does not cast into, and the device’s fits those of the C++.";
 }
 
 function parityTable() {
