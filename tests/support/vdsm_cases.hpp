@@ -12,7 +12,7 @@
 namespace shadowmath::test {
 
 inline ShadowPlane<double> const ground{V3(0, 1, 0), 0.0};
-inline Aabb<double> const flat_world{V3(-300, 0, -300), V3(300, 0, 300)};
+inline Aabb<double> const level_ground{V3(-300, 0, -300), V3(300, 0, 300)};
 inline Light<double> const morning = directional(V3(0.4, -1.0, 0.3));
 
 [[nodiscard]] inline ViewVolume<double> walker() {

@@ -57,7 +57,7 @@ TEST(Vdsm, GivesAReceiverThatIsAPointATexelOfTheScreen) {
 TEST(Vdsm, HasNothingToShowWithoutCastersOrReceiversAndSaysNoFault) {
     Aabb<double> const behind{V3(-5, 0, 50), V3(5, 1, 60)}, below{V3(-300, -20, -300), V3(300, -10, 300)};
     for (auto const& [casters, receivers] : {std::pair{Aabb<double>{}, town}, std::pair{town, Aabb<double>{}},
-                                             std::pair{town, behind}, std::pair{below, flat_world}}) {
+                                             std::pair{town, behind}, std::pair{below, level_ground}}) {
         ShadowMap<double> const map = view_dependent_map(walker(), morning, ground, casters, receivers, {}, gl_clip);
         EXPECT_FALSE(map.visible);
         EXPECT_FALSE(map.faults.any());

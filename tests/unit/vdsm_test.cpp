@@ -55,7 +55,8 @@ TEST(Vdsm, OnThePlaneTheMapIsTheScreen) {
 TEST(Vdsm, TexelsOnThePlaneHaveTheSameSizeInPixelsFromNearToFar) {
     ViewVolume<double> const view = walker();
     VdsmOptions<double> const options;
-    ShadowMap<double> const map = view_dependent_map(view, morning, ground, flat_world, flat_world, options, gl_clip);
+    ShadowMap<double> const map =
+        view_dependent_map(view, morning, ground, level_ground, level_ground, options, gl_clip);
     ASSERT_TRUE(map.visible);
     double least = inf, most = 0.0;
     for (V3 const& p : ground_in_view(view)) {
@@ -104,7 +105,7 @@ TEST(Vdsm, HoldsThePlaneInViewWithItsMarginAndTheCastersAboveIt) {
         for (ClipSpace const clip : {gl_clip, gl_zero_to_one_clip, vulkan_clip, reversed(d3d_clip)}) {
             ViewVolume<double> const view = walker();
             VdsmOptions<double> const options;
-            ShadowMap<double> const map = view_dependent_map(view, light, ground, town, flat_world, options, clip);
+            ShadowMap<double> const map = view_dependent_map(view, light, ground, town, level_ground, options, clip);
             ASSERT_TRUE(map.visible);
             double const margin = options.margin_texels * 2.0 / options.map_size;
             bool const sun = light.kind == LightKind::directional;
@@ -114,7 +115,7 @@ TEST(Vdsm, HoldsThePlaneInViewWithItsMarginAndTheCastersAboveIt) {
                 V3 const up = sun ? -light.direction * (12.0 / -light.direction.y)
                                   : (light.position - p) * (12.0 / light.position.y);
                 for (double const part : {0.01, 0.5, 1.0}) {
-                    if (!contains(flat_world, p + V3(up.x, 0, up.z) * part - V3(0, p.y, 0))) continue;
+                    if (!contains(level_ground, p + V3(up.x, 0, up.z) * part - V3(0, p.y, 0))) continue;
                     EXPECT_TRUE(laws::serves(map, p + up * part, margin)) << part;
                     EXPECT_TRUE(laws::keeps_the_order(map, p + up * part, p));
                 }
@@ -222,7 +223,8 @@ TEST(Vdsm, SpendsNoDepthOnCastersNearerThanItsWMin) {
     options.w_min = 2.5;
     auto const is_visible = [&](double ahead) {
         Aabb<double> const mast{V3(-0.05, 0.1, -ahead - 0.05), V3(0.05, 50, -ahead + 0.05)};
-        return view_dependent_map(view, directional(V3(0, -1, 0)), ground, mast, flat_world, options, gl_clip).visible;
+        return view_dependent_map(view, directional(V3(0, -1, 0)), ground, mast, level_ground, options, gl_clip)
+            .visible;
     };
     EXPECT_FALSE(is_visible(1.1));
     EXPECT_TRUE(is_visible(3.0));
@@ -231,7 +233,7 @@ TEST(Vdsm, SpendsNoDepthOnCastersNearerThanItsWMin) {
 TEST(Vdsm, ServesOrthographicEyes) {
     ViewVolume<double> const view = orthographic_view(pose_looking(V3(0, 50, 0), V3(0.1, -1, -0.3), V3(0, 1, 0)), -20.0,
                                                       20.0, -20.0, 20.0, 1.0, 100.0);
-    ShadowMap<double> const map = view_dependent_map(view, morning, ground, town, flat_world, {}, gl_clip);
+    ShadowMap<double> const map = view_dependent_map(view, morning, ground, town, level_ground, {}, gl_clip);
     ASSERT_TRUE(map.visible);
     EXPECT_TRUE(laws::is_map_of(map.clip_from_world, morning, gl_clip));
     EXPECT_TRUE(laws::serves(map, V3(0, 0, -10), 0.0));
