@@ -154,22 +154,10 @@ template <class T, class Bound, class Cover>
     chosen.tried = search.tried;
     stack = settled(work, stack, search.usable_texels, cover, least);
 
-    // A piece inside one map is served there. One that lies across several is in each of them with some of its points,
-    // and whole in the map of its own part.
-    std::array<Extent<T>, max_chosen_maps> depth;
-    auto const reach = [&](ViewPart<T> const& part, int own) {
-        cover(part, [&](Vec3<T> const* points, int count) {
-            int const holder = stack.holder(points, count);
-            // A side touches its points, so rounding may put one outside: it is its own part's all the same.
-            int const serving = holder < 0 ? own : holder;
-            for (int i = 0; i < count && serving >= 0; ++i) depth[static_cast<unsigned>(serving)].add(points[i].z);
-        });
-    };
-    for (int k = 0; k < stack.count; ++k) reach(stack.part[static_cast<unsigned>(k)], k);
-    for (int k = 0; k < stack.held_count; ++k) reach(stack.held[static_cast<unsigned>(k)], -1);
+    std::array<Extent<T>, max_chosen_maps> depth = depths_served(stack, cover);
+    leave_out_idle(stack, depth);
     for (int k = 0; k < stack.count; ++k) {
         Extent<T> const& along = depth[static_cast<unsigned>(k)];
-        if (!(along.lo <= along.hi)) continue;
         Quad<T> const& quad = stack.quad[static_cast<unsigned>(k)];
         ChosenMap<T>& made = chosen.at[static_cast<unsigned>(chosen.count)];
         T const room = T(1e-3) * (along.hi - along.lo) + T(1e-3);
@@ -195,7 +183,7 @@ template <class T, class Bound, class Cover>
     T weight = T(0);
     for (int i = 0; i < work.count; ++i) weight += work.sample[static_cast<unsigned>(i)].weight;
     chosen.one_map /= weight;
-    chosen.price = least / weight;
+    chosen.price = price_in(stack, work, search.usable_texels) / weight;
     return chosen;
 }
 

@@ -440,6 +440,22 @@ TEST(ChooseMaps, ThePlaneOfAnOrthographicEyeIsNoTile) {
     EXPECT_GE(laws::server_of(but_one, limits, point_at(flat, -5.0, -15.0, 10.0), 1e-9), 0);
 }
 
+// Four maps for sixteen like tiles: where one comes to serve none, the others serve all.
+TEST(ChooseMaps, EverySampleCountsInAMapThatIsThere) {
+    ViewVolume<double> const flat =
+        orthographic_view(pose_looking(V3(0, 10, 0), V3(0, -1, 0), V3(0, 0, -1)), -20.0, 20.0, -20.0, 20.0, 0.0, 50.0);
+    MapSearch<double> static work;
+    std::vector<double> const depth(16, 10.0);
+    SurfacePoint<double> const* const none = nullptr;
+    ChosenMaps<double> const ground =
+        choose_maps(flat, morning, town, none, 0, {depth.data(), depth.data(), 4, 4}, MapLimits<double>{}, work);
+    ASSERT_GT(ground.count, 0);
+    EXPECT_TRUE(laws::are_maps_of(ground, morning, gl_clip));
+    int samples = 0;
+    for (ChosenMap<double> const& chosen : ground) samples += chosen.samples;
+    EXPECT_EQ(samples, 16);
+}
+
 TEST(ChooseMaps, BoxesWithoutAnEndAreCutToTheView) {
     Street street;
     double const most = std::numeric_limits<double>::max();

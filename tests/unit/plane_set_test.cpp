@@ -192,3 +192,103 @@ TEST(PlaneSet, LooksAtAsManyPointsAsItHolds) {
     EXPECT_TRUE(is_floor(planes.at[0]));
     EXPECT_EQ(choose_planes(view, slanting, points.data(), 0).count, 0);
 }
+
+namespace {
+
+int served_by(ShadowPlane<double> const& plane, Points const& points, double good_pixels = 2.0) {
+    Samples<double> samples;
+    for (auto const& point : points)
+        if (samples.count < max_samples) samples.at[std::size_t(samples.count++)] = point;
+    return detail::well_served(plane, clip_from_world(view, ClipSpace{}), slanting, samples, good_pixels);
+}
+
+double major_on(ShadowPlane<double> const& plane, SurfacePoint<double> const& p) {
+    Mat4<double> const eye = clip_from_world(view, ClipSpace{});
+    return footprint(eye, V2(1000), eye * plane_projection(plane, homogeneous(slanting)), 1000.0, p.point, p.normal)
+        .major;
+}
+
+ShadowPlane<double> const floor_plane{up, 0.0}, wall_plane{ahead, 40.0};
+
+}  // namespace
+
+TEST(PlaneSet, APlaneThatTheLightRunsAlongServesNothing) {
+    ShadowPlane<double> const along_light =
+        plane_through(V3(0, 0, -20), glm::normalize(glm::cross(slanting.direction, up)));
+    EXPECT_EQ(served_by(along_light, floor_and_wall(2)), 0);
+    PlaneSet<double> last;
+    last.count = 1;
+    last.at[0] = along_light;
+    Points const points = floor_and_wall(1);
+    EXPECT_TRUE(is_floor(choose_planes(view, slanting, points.data(), count_of(points), {}, &last).at[0]));
+}
+
+TEST(PlaneSet, APlaneServesNoPointBehindTheEyeNorOneWhoseLightMeetsItThere) {
+    EXPECT_EQ(served_by(floor_plane, {{V3(1, 0, 20), up}}), 0);
+    // Just ahead and above the eye: the light goes on downward and back.
+    Light<double> const backward = directional(V3(0, -1, 1));
+    Samples<double> samples, left;
+    samples.at[0] = {V3(0, 8, -6), up};
+    samples.count = 1;
+    Mat4<double> const eye = clip_from_world(view, ClipSpace{});
+    EXPECT_EQ(detail::well_served(floor_plane, eye, backward, samples, 2.0, &left), 0);
+    EXPECT_EQ(left.count, 1);
+}
+
+TEST(PlaneSet, AsManyPixelsAsAreGoodAreGood) {
+    SurfacePoint<double> const point{V3(3, 0, -20), up};
+    double const major = major_on(floor_plane, point);
+    EXPECT_EQ(served_by(floor_plane, {point}, major), 1);
+    EXPECT_EQ(served_by(floor_plane, {point}, std::nextafter(major, 0.0)), 0);
+}
+
+TEST(PlaneSet, LooksAtEverySampleOfAsManyAsItHolds) {
+    Points points;
+    for (int i = 0; i < max_samples; ++i)
+        points.push_back(i % 2 == 0 ? floor_and_wall(0)[std::size_t(i % 400)]
+                                    : floor_and_wall(5)[std::size_t(i % 400)]);
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), max_samples).count, 2);
+}
+
+TEST(PlaneSet, WhatLiesBehindTheEyeTakesNoShare) {
+    Points points = floor_and_wall(0);
+    std::size_t const seen = points.size();
+    for (std::size_t i = 0; i < seen; ++i) points.push_back({V3(points[i].point.x, 0, 10 + double(i % 7)), up});
+    auto const planes = choose_planes(view, slanting, points.data(), count_of(points));
+    ASSERT_EQ(planes.count, 1);
+    EXPECT_EQ(planes.share[0], 1.0);
+}
+
+// Of two planes that serve as many the first sample's is taken; one of the last frame stays while the other serves no
+// more than 1 + hysteresis times as many.
+TEST(PlaneSet, OfEqualsTheFirstAndOfNearlyEqualsTheLastFramesIsTaken) {
+    auto const first_of = [](int on_floor, int on_wall, double hysteresis, ShadowPlane<double> const* last) {
+        Points points;
+        for (int i = 0; i < on_floor; ++i) points.push_back({V3(i - 2.0, 0, -12 - i), up});
+        for (int i = 0; i < on_wall; ++i) points.push_back({V3(i - 2.0, 9.0 + i, -40), ahead});
+        PlaneSetOptions<double> options;
+        options.good_pixels = 1.05;
+        options.hysteresis = hysteresis;
+        PlaneSet<double> previous;
+        previous.count = last != nullptr ? 1 : 0;
+        if (last != nullptr) previous.at[0] = *last;
+        for (ShadowPlane<double> const& plane : {floor_plane, wall_plane})
+            EXPECT_EQ(served_by(plane, points, options.good_pixels), is_floor(plane) ? on_floor : on_wall);
+        auto const planes = choose_planes(view, slanting, points.data(), count_of(points), options, &previous);
+        return is_floor(planes.at[0]) ? 'f' : is_wall(planes.at[0]) ? 'w' : '?';
+    };
+    EXPECT_EQ(first_of(4, 4, 0.1, nullptr), 'f');
+    EXPECT_EQ(first_of(4, 6, 0.1, &floor_plane), 'w');
+    EXPECT_EQ(first_of(4, 6, 0.5, &floor_plane), 'f');  // just so many
+    EXPECT_EQ(first_of(4, 6, 0.4, &floor_plane), 'w');
+    EXPECT_EQ(first_of(4, 8, 1.0, &floor_plane), 'f');
+    EXPECT_EQ(first_of(4, 9, 7.0, &floor_plane), 'w') << "twice as many are never too few";
+    EXPECT_EQ(first_of(6, 6, -3.0, &wall_plane), 'w');
+}
+
+TEST(PlaneSet, AShareThatIsJustEnoughIsEnough) {
+    Points const points = floor_and_wall(0);
+    PlaneSetOptions<double> options;
+    options.least_share = 1.0;
+    EXPECT_EQ(choose_planes(view, slanting, points.data(), count_of(points), options).count, 1);
+}
