@@ -181,7 +181,21 @@ TEST(ByFootprint, MixesHalfAndHalfWhereTwoMapsAreAlikeAndNotBeyondTheBand) {
     EXPECT_EQ(at(33, 30, 0.0).second, -1);
     EXPECT_EQ(at(33, 30, std::numeric_limits<double>::quiet_NaN()).second, -1);
     EXPECT_EQ(at(5, 6, 0.25).first, -1) << "neither holds the point";
+    std::array const alike{map_of(30), map_of(30)};
+    LookUp<double> const of_few_pixels =
+        by_footprint(alike.data(), 2, 1024, 2.0, eye, V2(16, 10), V3(0, 0, -10), up, 0.25);
+    EXPECT_EQ(of_few_pixels.second, 1) << "texels far smaller than a pixel";
+    LookUp<double> const unmixed = by_footprint(alike.data(), 2, 1024, 2.0, eye, V2(1600, 1000), V3(0, 0, -10), up);
+    EXPECT_EQ(unmixed.first, 0);
+    EXPECT_EQ(unmixed.second, -1) << "unless a band is asked for";
     EXPECT_EQ(by_footprint<double>(nullptr, 0, 1024, 2.0, eye, V2(1600, 1000), V3(0, 0, -10), up).first, -1);
+}
+
+TEST(ByFootprint, OfTexelsWithoutLengthNothingIsMixedNorDivided) {
+    auto const made = test::watched([] { return look_up_in(FinestMaps<double>{3, 1, 0.0, 0.0}, 0.25); });
+    EXPECT_TRUE(made.calm());
+    EXPECT_EQ(made.result.first, 3);
+    EXPECT_EQ(made.result.second, -1);
 }
 
 TEST(PlaneSet, LooksAtAsManyPointsAsItHolds) {

@@ -83,6 +83,69 @@ TEST(QuadStack, EveryPieceIsHeldAndTheFinestMapComesFirst) {
         EXPECT_EQ(stack.holder(field.work.sample[unsigned(i)]), field.work.sample[unsigned(i)].seen.z < 2.5 ? 0 : 1);
 }
 
+// The root and a leaf are cut, along every axis that there is; what is cut is no part.
+TEST(QuadStack, TheLeavesAndTheyAloneAreItsPartsSmallestFirst) {
+    for (int const axis : {0, detail::depth_axis}) {
+        Field field;
+        field.cut_at(6.5);
+        auto const halves = detail::cut(field.tree.node[1].part, axis, axis == 0 ? 3.5 : 1.5);
+        field.tree.node[1].axis = axis;
+        field.tree.node[1].child = 3;
+        field.tree.node[3].part = halves.a;
+        field.tree.node[4].part = halves.b;
+        // The larger of the two stands first in the tree.
+        if (axis == 0) std::swap(field.tree.node[3], field.tree.node[4]);
+        for (unsigned n : {3u, 4u}) field.tree.node[n].fit = field.search.fit(field.tree.node[n].part);
+        field.tree.count = 5;
+        field.tree.leaves = 3;
+        auto const stack = detail::stacked(field.search, field.tree, field.cover());
+        ASSERT_EQ(stack.count, 3) << axis;
+        EXPECT_EQ(stack.held_count, 0) << axis;
+        EXPECT_LE(area(stack.quad[0]), area(stack.quad[1])) << axis;
+        EXPECT_LE(area(stack.quad[1]), area(stack.quad[2])) << axis;
+    }
+}
+
+TEST(QuadStack, WhatServesNoPieceIsLeftOutAndTheOthersStayInOrder) {
+    Field field;
+    field.cut_at(2.5);
+    auto stack = detail::stacked(field.search, field.tree, field.cover());
+    ASSERT_EQ(stack.count, 2);
+    // The finer one once more behind itself: what it holds, the first holds already.
+    stack.quad[2] = stack.quad[1];
+    stack.part[2] = stack.part[1];
+    stack.quad[1] = stack.quad[0];
+    stack.part[1] = stack.part[0];
+    stack.count = 3;
+    auto const before = stack;
+    auto depth = detail::depths_served(stack, field.cover());
+    EXPECT_GT(depth[1].lo, depth[1].hi);
+    detail::leave_out_idle(stack, depth);
+    ASSERT_EQ(stack.count, 2);
+    EXPECT_EQ(stack.held_count, 1);
+    EXPECT_EQ(stack.part[1].lo, before.part[2].lo);
+    EXPECT_EQ(stack.held[0].hi, before.part[1].hi);
+    EXPECT_EQ(area(stack.quad[0]), area(before.quad[0]));
+    EXPECT_EQ(area(stack.quad[1]), area(before.quad[2]));
+    for (unsigned k : {0u, 1u}) EXPECT_EQ(depth[k].lo, 0.0) << k;
+}
+
+TEST(QuadStack, AsksForThePiecesOfEachPartOnceAndForNothingBehindThem) {
+    Field field;
+    field.cut_at(2.5);
+    auto stack = detail::stacked(field.search, field.tree, field.cover());
+    stack.held_count = 1;
+    std::array<V3, 2> const points{V3(4, 1, 5), V3(4, 1, 99)};
+    int asked = 0;
+    auto const depth = detail::depths_served(stack, [&](ViewPart<double> const&, auto const& visit) {
+        ++asked;
+        visit(points.data(), 1);
+    });
+    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(depth[0].lo, 5.0);
+    EXPECT_EQ(depth[0].hi, 5.0);
+}
+
 // A piece stands for all that may be seen in it: it is served by a map that holds it whole.
 TEST(QuadStack, APieceIsHeldOnlyWhole) {
     Field field;
