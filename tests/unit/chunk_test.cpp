@@ -115,8 +115,16 @@ TYPED_TEST(Chunk, IsFullWhereAWholeBatchMightNotFit) {
 
 TYPED_TEST(Chunk, TogetherTheyTouchWhatOneOfThemDoes) {
     using T = typename TypeParam::Scalar;
-    for (std::uint32_t const sound : {1u, 0b10110u, 0x8000u, 0xffffu}) {
-        this->chunk->add(this->batch(sound));
+    T farther = 0;
+    for (std::uint32_t const sound : {1u, 0b10110u, 0x8000u, 0xffffu, 0xffffu}) {
+        auto batch = this->batch(sound);
+        for (std::size_t k = 0; k < lane_count; ++k) {  // the later, the farther on each side
+            for (int const lo : {0, 2}) batch.bounds[lo][k] -= farther;
+            for (int const hi : {1, 3}) batch.bounds[hi][k] += farther;
+            batch.depth[k] -= farther;
+        }
+        farther += T(100);
+        this->chunk->add(batch);
         auto const& bounds = this->chunk->bounds;
         T all[5];
         this->chunk->together(all);
@@ -149,7 +157,9 @@ TYPED_TEST(Chunk, MeetsATriangleAndANodeThatTouchInOneCellAndOthersInNone) {
     auto const here = std::make_unique<detail::CellCasters<TypeParam>>();
     int met = 0, missed = 0;
     for (int trial = 0; trial < 50; ++trial) {
-        T const x = this->between(T(-4), T(60)), y = this->between(T(-4), T(60));
+        // Every other node begins where a cell does.
+        T const x = trial % 2 == 0 ? this->between(T(-4), T(60)) : T(16 * (1 + trial % 3));
+        T const y = trial % 4 < 2 ? this->between(T(-4), T(60)) : T(16 * (1 + trial % 3));
         T const node[5] = {x, x + this->between(T(0), T(20)), y, y + this->between(T(0), T(20)),
                            this->between(T(0), T(1))};
         std::vector<int> found(bounds.count, 0);
@@ -188,4 +198,16 @@ TYPED_TEST(Chunk, TakesNothingIntoACellBeyondItsFarEnd) {
                                 [&](T depth) { return depth <= far_end; }));
         for (std::uint32_t i = 0; i < here->bounds.count; ++i) EXPECT_LE(here->bounds.depth[i], far_end);
     }
+}
+
+TYPED_TEST(Chunk, AllOfAFullOneFitIntoACell) {
+    using T = typename TypeParam::Scalar;
+    while (!this->chunk->full()) this->chunk->add(this->batch(0xffffu));
+    auto const here = std::make_unique<detail::CellCasters<TypeParam>>();
+    Cell<T> const cell{T(-4), T(100), T(-4), T(100)};
+    here->take(this->chunk->bounds, cell, T(1));
+    EXPECT_EQ(here->bounds.count, chunk_room);
+    T const node[5] = {T(-100), T(100), T(-100), T(100), T(1)};
+    std::uint32_t slots[chunk_room + lane_count];
+    EXPECT_EQ(here->find(node, cell, slots), chunk_room);
 }

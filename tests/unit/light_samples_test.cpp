@@ -174,6 +174,65 @@ TEST(LightSamples, SurfacesThatLightOrEyeGrazeHaveACellWithAnEnd) {
     }
 }
 
+TEST(LightSamples, ACellSeenEdgeOnIsEightTimesAsDeepAsItsLongerSide) {
+    ViewVolume<double> const view = some_view();
+    V3 const point = point_at(view, 0.2, -0.3, 6.0);
+    V3 const edge_on = glm::cross(view.pose.position - point, V3(0.3, 1, -0.2));
+    for (V2 const shape : {V2(48, 270), V2(480, 27)}) {
+        LightSample<double> const sample = light_sample(light_sampler(view, morning, picture, shape), {point, edge_on});
+        ASSERT_TRUE(sample.usable);
+        double const side = std::max((view.right - view.left) / shape.x, (view.top - view.bottom) / shape.y) * 6.0;
+        for (V2 const reach : {sample.reach_x, sample.reach_y})
+            EXPECT_NEAR(std::max(std::abs(reach.x), std::abs(reach.y)), 8 * side / 2, 1e-9);
+    }
+}
+
+TEST(LightSamples, ACellIsTheSameHoweverFineThePicture) {
+    auto surfaces = some_surfaces(some_view());
+    V3 const point = point_at(some_view(), 0.2, -0.3, 6.0);
+    surfaces.push_back({point, glm::cross(some_view().pose.position - point, V3(0.3, 1, -0.2))});  // seen edge-on
+    for (auto const& surface : surfaces) {
+        LightSample<double> const fine = light_sample(light_sampler(some_view(), morning, picture, cells), surface);
+        V2 const few = picture * 0x1p-30;
+        LightSample<double> const coarse = light_sample(light_sampler(some_view(), morning, few, cells), surface);
+        EXPECT_EQ(fine.reach_x, coarse.reach_x);
+        EXPECT_EQ(fine.reach_y, coarse.reach_y);
+    }
+}
+
+// A level surface as high as the eye: nothing on it is as much as a pixel higher.
+TEST(LightSamples, AlongASurfaceThatIsALineInThePictureACellHasNoHeight) {
+    ViewVolume<double> const view = perspective_view(Pose<double>{}, 1.0, 16.0 / 9, 0.1, 150.0);
+    LightSampler<double> const sampler = light_sampler(view, directional(V3(0, -1, 0)), picture, cells);
+    LightSample<double> const sample = light_sample(sampler, {V3(0, 0, -5), V3(0, 1, 0)});
+    ASSERT_TRUE(sample.usable);
+    EXPECT_EQ(sample.gain_x.y, 0.0);
+    EXPECT_EQ(sample.gain_y.y, 0.0);
+    EXPECT_EQ(sample.reach_x, V2(0));
+    EXPECT_GT(glm::length(sample.reach_y), 0.0);
+}
+
+TEST(LightSamples, ACellTooLargeForANumberIsUnusable) {
+    SurfacePoint<double> const surface{point_at(some_view(), 0.1, 0.1, 0.5), V3(0, 1, 0)};
+    for (V2 const shape : {V2(1e-304, 27), V2(48, 1e-304)}) {
+        LightSampler<double> const sampler = light_sampler(some_view(), morning, picture, shape);
+        ASSERT_TRUE(sampler.usable);
+        EXPECT_FALSE(light_sample(sampler, surface).usable);
+    }
+}
+
+TEST(LightSamples, APlaceTooFarForANumberIsUnusable) {
+    ViewVolume<double> const view = orthographic_view(Pose<double>{}, -32.0, 32.0, -18.0, 18.0, 0.1, 150.0);
+    int too_far = 0;
+    for (V3 const travel : {V3(1, -1, -1), V3(1, 1, -1), V3(-1, 1, -1), V3(0, 0, -1), V3(0, -1, -1)}) {
+        LightSampler<double> const sampler = light_sampler(view, directional(travel), picture, cells);
+        LightSample<double> const sample = light_sample(sampler, {V3(1.5e308, 1.5e308, -5), V3(0, 0, 1)});
+        EXPECT_EQ(sample.usable, all_finite(sample.place)) << travel.x << ' ' << travel.y;
+        too_far += all_finite(sample.place) ? 0 : 1;
+    }
+    EXPECT_GT(too_far, 0);
+}
+
 TEST(LightSamples, PointsThatAreNotSeenAreUnusable) {
     ViewVolume<double> const view = some_view();
     LightSampler<double> const sampler = light_sampler(view, morning, picture, cells);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 using namespace shadowmath;
@@ -45,9 +46,31 @@ TEST(PixelFrame, PutsWhatIsSeenAtAPixelThere) {
 
 TEST(PixelFrame, SaysWhatIsWrongWithTheView) {
     EXPECT_TRUE(pixel_frame(off_centre_eye(ViewKind::perspective), 0, 10).faults.has(Fault::map_too_small));
+    EXPECT_TRUE(pixel_frame(off_centre_eye(ViewKind::perspective), 10, 0).faults.has(Fault::map_too_small));
+    EXPECT_FALSE(pixel_frame(off_centre_eye(ViewKind::perspective), 1, 1).faults.any()) << "a picture of one pixel";
     ViewVolume<double> crossed = off_centre_eye(ViewKind::perspective);
     crossed.left = 2.0;
     EXPECT_TRUE(pixel_frame(crossed, 10, 10).faults.has(Fault::bad_frustum));
+}
+
+TEST(PixelFrame, OfPixelsAMetreLargeIsInvertedLikeAnyOther) {
+    ViewVolume<double> eye;
+    eye.left = eye.bottom = -1.0;
+    eye.right = eye.top = 1.0;
+    for (YAxis const rows : {YAxis::up, YAxis::down}) {
+        PixelFrame<double> const frame = pixel_frame(eye, 2, 2, rows), same = frame_in<double>(frame);
+        EXPECT_EQ(same.to_across, frame.to_across);
+        EXPECT_EQ(same.to_upward, frame.to_upward);
+        EXPECT_EQ(same.to_inward, frame.to_inward);
+    }
+}
+
+TEST(PixelFrame, WithoutAVolumeHasNoInverseAndDividesNothingByZero) {
+    PixelFrame<float> level;
+    level.inward = level.across;
+    auto const same = test::watched([&] { return frame_in<float>(level); });
+    EXPECT_TRUE(same.calm());
+    EXPECT_TRUE(all_finite(same.result.to_across) && all_finite(same.result.to_inward));
 }
 
 TEST(MicroQuad, EverySampleLiesOnThePlaneAndInThePixel) {
@@ -101,6 +124,35 @@ TEST(MicroQuad, OfAPlaneSeenEdgeOnStaysBetweenTwoThirdsAndTwiceItsDepth) {
                 EXPECT_LE(depth, 12.0 + 1e-9);
             }
     }
+}
+
+TEST(MicroQuad, OfAPlaneSeenEdgeOnIsAsSteepAsAQuadMayBe) {
+    for (ViewKind const kind : {ViewKind::perspective, ViewKind::orthographic}) {
+        PixelFrame<double> const frame = pixel_frame(off_centre_eye(kind), 64, 36);
+        bool const flat = kind == ViewKind::orthographic;
+        V const ray = flat ? frame.inward : frame.inward + frame.across * (10.5 - 32.0) + frame.upward * (20.5 - 18.0);
+        double const most = flat ? deepest_quad<double> * glm::length(frame.across) : steepest_quad<double> / 6.0;
+        for (V const& aside : {frame.across, frame.upward, frame.across + frame.upward * 3.0}) {
+            MicroQuad<double> const quad = micro_quad(frame, 10, 20, 6.0, glm::cross(ray, aside));
+            ASSERT_TRUE(quad.ok);
+            EXPECT_NEAR((std::abs(quad.q_x) + std::abs(quad.q_y)) / 2, most, 1e-9 * most);
+            EXPECT_NEAR(quad.q + (quad.q_x + quad.q_y) / 2, flat ? 6.0 : 1.0 / 6.0, 1e-9 * (1 + most));
+        }
+    }
+}
+
+// One over the depth is a number in the middle of the pixel, but not in the corner that is nearer to the eye.
+TEST(MicroQuad, ThatIsOkHasANumberAtItsCorner) {
+    PixelFrame<double> const frame = pixel_frame(perspective_view<double>({}, 1.0, 1.0, 0.1, 10.0), 2, 2);
+    int ok = 0, not_ok = 0;
+    for (int const pixel : {0, 1})
+        for (V const& normal : {V(10, 0, 1), V(0, 10, 1)}) {
+            MicroQuad<double> const quad = micro_quad(frame, pixel, pixel, 7e-309, normal);
+            EXPECT_EQ(quad.ok, all_finite(&quad.q, 1));
+            ++(quad.ok ? ok : not_ok);
+        }
+    EXPECT_GT(ok, 0);
+    EXPECT_GT(not_ok, 0);
 }
 
 TEST(MicroQuad, OfWhatIsNoSurfaceIsNotOk) {

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace shadowmath;
 
@@ -96,4 +98,71 @@ TEST(Msm, ABiasOutsideItsRangeIsTheNearestOne) {
 TEST(Msm, DividesByNothingToNothing) {
     EXPECT_EQ(detail::quotient_or_zero(3.0, 0.0), 0.0);
     EXPECT_EQ(detail::quotient_or_zero(3.0, 2.0), 1.5);
+}
+
+TEST(Msm, TheCoefficientsSolveTheHankelSystem) {
+    Vec4<double> const b = laws::Kernel{{0.1, 0.4, 0.7, 0.95}, {0.4, 0.3, 0.1, 0.2}}.mean<double>(msm_moments<double>);
+    for (double const x : {-0.9, -0.3, 0.2, 0.7}) {
+        Vec3<double> const c = detail::solve_hankel(b, x);
+        EXPECT_NEAR(c.x + b.x * c.y + b.y * c.z, 1.0, 1e-9);
+        EXPECT_NEAR(b.x * c.x + b.y * c.y + b.z * c.z, x, 1e-9);
+        EXPECT_NEAR(b.y * c.x + b.z * c.y + b.w * c.z, x * x, 1e-9);
+    }
+}
+
+// Such a distribution is the only one with its moments and an atom at the receiver, so nothing is lost by bounding it.
+TEST(Msm, IsExactForTheReceiverAndTwoOtherDepths) {
+    for (double const at_receiver : {0.2, 0.5, 0.8}) {
+        double const other = (1 - at_receiver) / 2;
+        for (auto const& depth : {std::vector<double>{0.0, 0.5, 1.0}, {0.1, 0.2, 0.9}, {0.3, 0.9, 1.0}})
+            for (std::size_t i = 0; i < 3; ++i) {
+                laws::Kernel kernel{depth, {other, other, other}};
+                kernel.weight[i] = at_receiver;
+                Vec4<double> const moments = kernel.mean<double>(msm_moments<double>);
+                EXPECT_NEAR(msm_visibility(moments, depth[i], 0.0), kernel.lit(depth[i]), 1e-6)
+                    << depth[0] << ' ' << depth[1] << ' ' << depth[2] << ": " << i;
+                double const x = 2 * depth[i] - 1, low = 2 * depth[i == 0 ? 1 : 0] - 1,
+                             high = 2 * depth[i == 2 ? 1 : 2] - 1;
+                EXPECT_NEAR(detail::mass_before(moments, x, low, high), 1 - kernel.lit(depth[i]), 1e-9);
+            }
+    }
+}
+
+// There the quadratic is a line: two atoms have all moments but the last, and the third is without mass, endlessly far.
+TEST(Msm, WhereOneAtomIsEndlesslyFarTheOtherTwoAreFound) {
+    for (bool const mirrored : {false, true}) {
+        laws::Kernel kernel{{0.0, 0.8, 1.0}, {0.1, 0.45, 0.45}};
+        for (double& depth : kernel.depth) depth = mirrored ? 1 - depth : depth;
+        Vec4<double> const b = kernel.mean<double>(msm_moments<double>);
+        double const variance = b.y - b.x * b.x;
+        double const lean = (b.z - 3 * b.x * b.y + 2 * b.x * b.x * b.x) / variance / 2;
+        double const root = std::sqrt(lean * lean + variance), below = root - lean, above = root + lean;
+        ASSERT_LT(mirrored ? below : above, variance) << "where the terms of the formula are small";
+        auto const visible_at = [&](double z) { return msm_visibility(b, (z + 1) / 2, 0.0); };
+        for (int i = -200; i <= 200; ++i) {
+            double const moved = i * std::numeric_limits<double>::epsilon();
+            ASSERT_NEAR(visible_at(b.x + above + moved), below / (below + above), 1e-3) << i;
+            ASSERT_NEAR(visible_at(b.x - below + moved), 1.0, 1e-3) << i;
+        }
+    }
+}
+
+TEST(Msm, ABiasIsItsShareOfTheFixedDistribution) {
+    // Masses 3/16, 5/8, 3/16 at z = -1, 0, 1.
+    for (double const bias : {0.01, 0.05, 0.1}) {
+        laws::Kernel const mixed{{0.3, 0.8, 0.0, 0.5, 1.0},
+                                 {0.25 * (1 - bias), 0.75 * (1 - bias), bias * 3 / 16, bias * 5 / 8, bias * 3 / 16}};
+        Vec4<double> const moments = edge(0.25).mean<double>(msm_moments<double>);
+        Vec4<double> const moments_of_mixed = mixed.mean<double>(msm_moments<double>);
+        for (double const depth : {0.1, 0.4, 0.6, 0.7, 0.9})
+            EXPECT_NEAR(msm_visibility(moments, depth, bias), msm_visibility(moments_of_mixed, depth, 0.0), 1e-6)
+                << bias << " at " << depth;
+    }
+}
+
+TEST(Msm, AReceiverWithoutADepthIsLit) {
+    Vec4<double> const moments = msm_moments(0.4);
+    ASSERT_LT(msm_visibility(moments, 1.0, 0.0), 0.1);
+    EXPECT_EQ(msm_visibility(moments, std::numeric_limits<double>::infinity(), 0.0), 1.0);
+    EXPECT_EQ(msm_visibility(moments, std::numeric_limits<double>::quiet_NaN(), 0.0), 1.0);
 }

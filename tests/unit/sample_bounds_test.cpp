@@ -114,3 +114,45 @@ TYPED_TEST(SampleBoundsOf, AsManySplitsAsThereCanBeAddUp) {
     EXPECT_FALSE(is_empty(near_ones.box[max_splits - 1]));
     EXPECT_TRUE(is_empty(near_ones.box[5]));
 }
+
+TYPED_TEST(SampleBoundsOf, ASampleAtTheNearEndIsTakenIn) {
+    using T = TypeParam;
+    auto const rays = sample_rays(looking_ahead<T>(), Light<T>{}, 2, 4);
+    auto bounds = no_bounds(uniform_splits(T(1), T(100), 2));
+    add(bounds, rays, 0, 0, T(1));
+    EXPECT_TRUE(contains(bounds.box[0], from_eye(rays, 0, 0, T(1))));
+    EXPECT_TRUE(is_empty(bounds.box[1]));
+}
+
+TYPED_TEST(SampleBoundsOf, OfATileItsWholeCellIsTakenInAndNoMore) {
+    using T = TypeParam;
+    // The cell from -1/2 to 0 in x and in y.
+    auto const rays = sample_rays(looking_ahead<T>(), Light<T>{}, 4, 4);
+    auto const box_of = [&](T nearest, T farthest) {
+        auto bounds = no_bounds(uniform_splits(T(1), T(100), 1));
+        add_tile(bounds, rays, 1, 1, nearest, farthest);
+        return bounds.box[0];
+    };
+    EXPECT_EQ(box_of(T(2), T(3)).lo, Vec3<T>(T(-1.5), 2, 0));
+    EXPECT_EQ(box_of(T(2), T(3)).hi, Vec3<T>(0, 3, T(1.5)));
+    EXPECT_EQ(box_of(T(4), T(4)).lo, Vec3<T>(-2, 4, 0)) << "a tile of one depth";
+    EXPECT_EQ(box_of(T(4), T(4)).hi, Vec3<T>(0, 4, 2));
+}
+
+TYPED_TEST(SampleBoundsOf, BoxesBeyondTheCountStayAsTheyAre) {
+    using T = TypeParam;
+    auto const rays = sample_rays(looking_ahead<T>(), Light<T>{}, 2, 4);
+    T const planes[] = {T(10), T(20)};
+    auto const three = no_bounds(explicit_splits(T(1), T(100), planes, 3));
+    auto all = three, two = three;
+    two.count = 2;
+    add(all, rays, 0, 0, T(19.999));
+    add(two, rays, 0, 0, T(19.999));
+    EXPECT_FALSE(is_empty(all.box[2])) << "served by the third too";
+    EXPECT_FALSE(is_empty(two.box[1]));
+    EXPECT_TRUE(is_empty(two.box[2]));
+    add_tile(two, rays, 0, 0, T(5), T(50));
+    EXPECT_TRUE(is_empty(two.box[2]));
+    add(two, all);
+    EXPECT_TRUE(is_empty(two.box[2]));
+}
