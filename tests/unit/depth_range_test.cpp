@@ -228,6 +228,16 @@ TYPED_TEST(DepthRangeOf, PointsAndPlanesHaveAnExtentToo) {
     EXPECT_TRUE(this->close(this->range(point, this->ground).lo, 0));
 }
 
+TYPED_TEST(DepthRangeOf, OfASliceOfOneDepthFarOutIsARangeToo) {
+    using T = TypeParam;
+    T const depth = std::min(T(1) / std::numeric_limits<T>::epsilon(), T(1e18L));
+    Aabb<T> const box{Vec3<T>(-3, -depth - 9, -3), Vec3<T>(3, -depth + 9, 3)};
+    auto const range = depth_range(this->sides, DepthRange<T>{depth, depth, true}, box, box, true);
+    ASSERT_TRUE(range.visible);
+    EXPECT_LT(range.lo, depth);
+    EXPECT_GT(range.hi, depth);
+}
+
 TYPED_TEST(DepthRangeOf, SidesOrASliceThatAreNoNumbersHaveNone) {
     using T = TypeParam;
     T const nan = std::numeric_limits<T>::quiet_NaN();
