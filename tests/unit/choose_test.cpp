@@ -155,6 +155,62 @@ TEST(Choose, KeepsStillWhatMustBeStill) {
     EXPECT_EQ(chosen.within(limits).options.steady_maps, 1);
 }
 
+TEST(Choose, AtEaseTheOnlyMapIsTheStillOne) {
+    ChoiceLimits<double> limits;
+    limits.motion = Motion::at_ease;
+    limits.most_maps = 1;
+    Choice<double> const choice = Chosen{}.within(limits);
+    EXPECT_TRUE(choice.visible);
+    EXPECT_EQ(choice.options.fit, CascadeFit::stable);
+    EXPECT_EQ(choice.tried, 1);
+}
+
+TEST(Choose, TriesNoMapThatItsFilterLeavesNothingOf) {
+    ChoiceLimits<double> limits;
+    limits.most_maps = 1;
+    CascadeOptions<double> given;
+    // Three texels and a margin of a filter and one texel on either side.
+    for (int const texels : {4, 8, 12})
+        for (int const radius : {0, 1, 2, 3, 4}) {
+            limits.texels = texels * texels;
+            given.filter_radius = radius;
+            EXPECT_EQ(Chosen{}.within(limits, given).tried, texels >= 3 + 2 * (radius + 1) ? 1 : 0);
+        }
+}
+
+// One map of each fit is measured here as there: a later one is taken where it is better by more than a fiftieth.
+TEST(Choose, OfFitsThatAreEqualToAFiftiethTheCalmerStays) {
+    int close = 0;
+    for (V3 const look : {V3(0, -1, 0), V3(0.1, -1, 0.3), V3(0.4, -0.05, -1)}) {
+        ViewVolume<double> const view =
+            perspective_view(pose_looking(V3(0, 60, 0), look, V3(0, 0, -1)), 1.0, 1.6, 0.1, 250.0);
+        Light<double> const sun = directional(V3(0, -1, 0));
+        Samples<double> const samples = samples_in(view, sun, town);
+        ChoiceLimits<double> limits;
+        limits.motion = Motion::any;
+        limits.most_maps = 1;
+        CascadeOptions<double> options;
+        options.count = 1;
+        options.map_size = map_size_within(limits.texels, 1, limits.largest_map);
+        double least = footprint_limit<double>;
+        CascadeFit expected = options.fit;
+        for (CascadeFit const fit :
+             {CascadeFit::stable, CascadeFit::tight, CascadeFit::rectangle, CascadeFit::focus, CascadeFit::warped}) {
+            options.fit = fit;
+            double const worst = judge(fit_cascades(view, sun, town, town, options), options.map_size, view,
+                                       limits.eye_pixels, samples.at.data(), samples.count)
+                                     .all.worst;
+            close += worst > 0.98 * least && worst < least / 0.98 ? 1 : 0;
+            if (worst >= 0.98 * least) continue;
+            least = worst;
+            expected = fit;
+        }
+        Choice<double> const choice = choose(view, sun, town, town, samples.at.data(), samples.count, {}, limits);
+        EXPECT_EQ(choice.options.fit, expected) << look.x;
+    }
+    EXPECT_GT(close, 0);
+}
+
 TEST(Choose, StaysWithinItsTexelsAndItsTries) {
     Chosen const chosen;
     ChoiceLimits<double> limits;

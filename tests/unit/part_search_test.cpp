@@ -88,6 +88,22 @@ struct Fronts : Search {
     }
 };
 
+// Two a metre long and eight apart along one axis, told apart by nothing else: a hundred metres away, or in the middle.
+struct Clumps : Search {
+    double gap;
+
+    explicit Clumps(int axis) : gap(axis == detail::depth_axis ? 105.0 : 0.0) {
+        for (double const first : {gap - 5.0, gap + 4.0})
+            for (int k = 0; k <= 10; ++k)
+                for (int i = 0; i < 3; ++i) {
+                    LightSample<double> sample = sample_at(0.0, 0.0, 10.0);
+                    sample.seen[axis] = first + 0.1 * k;
+                    sample.place = V2(0.1 * i, sample.seen[axis]);
+                    take(sample);
+                }
+    }
+};
+
 std::vector<int> leaves_of(Tree const& tree) {
     std::vector<int> leaves;
     for (int n = 0; n < tree.count; ++n)
@@ -180,6 +196,12 @@ TEST(PartSearch, OfFewerPricedSamplesAllAreHeld) {
         EXPECT_TRUE(is_in(fit.quad, street.work.sample[static_cast<unsigned>(i)].place));
 }
 
+TEST(PartSearch, AsManySamplesAsMayBePricedAreAllPriced) {
+    Street every, as_many;
+    as_many.parts.most_priced = as_many.work.count;
+    EXPECT_EQ(as_many.parts.fit(Part{}).price, every.parts.fit(Part{}).price);
+}
+
 TEST(PartSearch, EveryCutMakesThePriceLess) {
     Street street;
     double last = std::numeric_limits<double>::max();
@@ -213,6 +235,15 @@ TEST(PartSearch, TheFirstCutIsTheBestOfAllThatAreTried) {
             double const price = street.parts.fit(halves.a).price + street.parts.fit(halves.b).price;
             EXPECT_GE(price, all - best.saved - 1e-9 * all) << axis << ' ' << k;
         }
+}
+
+TEST(PartSearch, SevenCutsAreTriedAlongEachAxis) {
+    Street street;
+    (void)street.grown(2, true);
+    EXPECT_EQ(street.parts.tried, 1 + 2 * 7);
+    street.parts.tried = 0;
+    (void)street.grown(2);
+    EXPECT_EQ(street.parts.tried, 1 + 2 * 3 * 7);
 }
 
 TEST(PartSearch, ByDepthAloneNothingElseIsCut) {
@@ -283,6 +314,38 @@ TEST(PartSearch, ASettledCutIsNoWorseThanItsNeighbours) {
         detail::refit(street.parts, moved);
         EXPECT_GE(moved.price, tree.price) << way;
     }
+}
+
+TEST(PartSearch, ATreeWhoseCutsHaveNotMovedIsTheSameAnew) {
+    Street street;
+    Fronts fronts;
+    for (Search* const search : {static_cast<Search*>(&street), static_cast<Search*>(&fronts)}) {
+        Tree const tree = search->grown(max_chosen_maps);
+        Tree anew = tree;
+        detail::refit(search->parts, anew);
+        expect_sound(*search, anew);
+        EXPECT_NEAR(anew.price, tree.price, 1e-9 * tree.price);
+    }
+}
+
+TEST(PartSearch, ACutBesideAGapSettlesInTheGap) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (double const beside : {-4.55, 4.55}) {
+            Clumps clumps(axis);
+            Tree tree;
+            tree.count = 3;
+            tree.leaves = 2;
+            tree.node[0].axis = axis;
+            tree.node[0].at = clumps.gap + beside;
+            tree.node[0].child = 1;
+            detail::refit(clumps.parts, tree);
+            double const before = tree.price;
+            detail::settle(clumps.parts, tree);
+            EXPECT_LT(tree.price, 0.5 * before) << axis << ' ' << beside;
+            EXPECT_GT(tree.node[0].at, clumps.gap - 4.0) << axis << ' ' << beside;
+            EXPECT_LE(tree.node[0].at, clumps.gap + 4.0) << axis << ' ' << beside;
+            expect_sound(clumps, tree);
+        }
 }
 
 TEST(PartSearch, OfNoSamplesThereIsOnePartWithoutAMap) {
