@@ -43,13 +43,14 @@ struct SplitPlan {
     maps.way = DrawWay::pass_per_map;
     SplitPlan plan{plan_draws(maps, objects), {}};
     std::vector<ViewDraw> const whole = plan_view(pass, objects);
+    FrameConstants unblended = pass.frame;  // no second map is there
+    for (MapConstants& map : unblended.maps) map.blend_begin = map.depth_end;
     constexpr float beyond_all = std::numeric_limits<float>::infinity();
     float begin = -beyond_all;
     for (int i = 0; i <= pass.frame.map_count; ++i) {
         auto const at = static_cast<std::size_t>(i);
-        ViewDraw view{pass.frame, {}};
+        ViewDraw view{unblended, {}};
         view.frame.split = i;
-        for (MapConstants& map : view.frame.maps) map.blend_begin = map.depth_end;  // no second map is there
         float const end = i < pass.frame.map_count ? pass.frame.maps[at].depth_end : beyond_all;
         if (begin < end) {
             if (pass.shown.empty())

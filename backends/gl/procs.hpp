@@ -16,7 +16,7 @@
 // clang-format off
 #define SHADOWMATH_GL_PROCS(X)                                                                                      \
     X(GetString) X(GetStringi) X(GetIntegerv) X(Enable) X(Disable) X(Finish)                                        \
-    X(Viewport) X(DepthFunc) X(ClipControl) X(ProvokingVertex)                                        \
+    X(Viewport) X(DepthFunc) X(ClipControl) X(ProvokingVertex)                                                      \
     X(DebugMessageCallback) X(DebugMessageControl)                                                                  \
     X(CreateShader) X(ShaderSource) X(ShaderBinary) X(CompileShader) X(GetShaderiv) X(GetShaderInfoLog)             \
     X(DeleteShader)                                                                                                 \

@@ -269,7 +269,7 @@ Claim simple_near(backend::Backend& backend, scenes::NamedScene const& town, Ext
 
 Claim fitted_on_the_device(backend::Backend& backend, scenes::NamedScene const& town, Extent extent) {
     int pictures = 0;
-    double unlike = 0.0;
+    long unlike = 0;
     for (scenes::View const& view : town.views) {
         if (view.has_spot) continue;
         std::array<backend::Image<backend::Rgba8>, 2> pair;
@@ -277,14 +277,14 @@ Claim fitted_on_the_device(backend::Backend& backend, scenes::NamedScene const& 
             timed(backend, fit_on(backend, technique(id), town.scene, view, extent), extent);
             *picture = backend.read_frame().colour;
         }
-        unlike += unlike_fraction(pair[0], pair[1]) * extent.width * extent.height;
+        unlike += unlike_pixels(pair[0], pair[1]);
         ++pictures;
     }
     return {"sdsm-device",
             "shadowmath",
             "Maps fitted on the GPU and used there without read-back give the picture of those fitted in C++",
-            text("%.0f pixels of %d pictures of the town are unlike", unlike, pictures),
-            pictures > 0 && unlike == 0.0,
+            text("%ld pixels of %d pictures of the town are unlike", unlike, pictures),
+            pictures > 0 && unlike == 0,
             "the shaders round as the C++ does: the matrices are the same bits"};
 }
 

@@ -121,14 +121,18 @@ Measurement measure(ViewTruth const& truth, MapSet const& maps, backend::Frame c
     return result;
 }
 
-double unlike_fraction(backend::Image<backend::Rgba8> const& a, backend::Image<backend::Rgba8> const& b) {
-    if (a.pixels.size() != b.pixels.size()) return 1.0;
+long unlike_pixels(backend::Image<backend::Rgba8> const& a, backend::Image<backend::Rgba8> const& b) {
+    if (a.pixels.size() != b.pixels.size()) return static_cast<long>(std::max(a.pixels.size(), b.pixels.size()));
     long differing = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         backend::Rgba8 const p = a.pixels[i], q = b.pixels[i];
         if (p.r != q.r || p.g != q.g || p.b != q.b) ++differing;
     }
-    return share(differing, static_cast<long>(a.pixels.size()));
+    return differing;
+}
+
+double unlike_fraction(backend::Image<backend::Rgba8> const& a, backend::Image<backend::Rgba8> const& b) {
+    return share(unlike_pixels(a, b), static_cast<long>(std::max(a.pixels.size(), b.pixels.size())));
 }
 
 }  // namespace shadowmath::gallery

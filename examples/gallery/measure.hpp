@@ -30,7 +30,10 @@ struct Measurement {
 // A pixel is mis-shadowed when (visibility >= 1/2) is not what ray tracing says; frame has the extent of the truth.
 [[nodiscard]] Measurement measure(ViewTruth const& truth, MapSet const& maps, backend::Frame const& frame);
 
-// Share of pixels that differ in colour; 1 where the extents do.
+// Pixels that differ in colour; all of the larger where the extents do.
+[[nodiscard]] long unlike_pixels(backend::Image<backend::Rgba8> const& a, backend::Image<backend::Rgba8> const& b);
+
+// Their share.
 [[nodiscard]] double unlike_fraction(backend::Image<backend::Rgba8> const& a, backend::Image<backend::Rgba8> const& b);
 
 }  // namespace shadowmath::gallery

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/gallery/ways.hpp"
 
-#include "examples/gallery/parity.hpp"
+#include "examples/gallery/measure.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,12 +60,6 @@ void compare_maps(WayRecord& record, std::vector<Image<float>> const& expected,
         }
 }
 
-void compare_pictures(WayRecord& record, Image<Rgba8> const& expected, Image<Rgba8> const& drawn) {
-    record.pixels = static_cast<long>(drawn.pixels.size());
-    for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
-        record.unlike_pixels += difference(expected.pixels[i], drawn.pixels[i]) > 0;
-}
-
 // What the first way of each kind drew.
 class Reference {
 public:
@@ -73,7 +67,8 @@ public:
         if (record.with_picture) {
             Image<Rgba8> const drawn = backend.read_frame().colour;
             if (picture_.pixels.empty()) picture_ = drawn;
-            compare_pictures(record, picture_, drawn);
+            record.pixels = static_cast<long>(drawn.pixels.size());
+            record.unlike_pixels = unlike_pixels(picture_, drawn);
         } else {
             std::vector<Image<float>> drawn;
             for (int map = 0; map < record.maps; ++map) drawn.push_back(backend.read_depth(map));
