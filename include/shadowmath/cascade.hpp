@@ -17,6 +17,7 @@
 namespace shadowmath {
 inline namespace v0 {
 
+// What each is good for: cascades.hpp.
 enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus, warped };
 
 template <class T>
@@ -56,6 +57,7 @@ struct Cascades {
 
 namespace detail {
 
+// Texels: what is asked for, brought between none and a quarter of the map.
 template <class T>
 [[nodiscard]] inline int kernel_radius(CascadeOptions<T> const& options, Faults& faults) noexcept {
     int const quarter = options.map_size > 0 ? options.map_size / 4 : 0, most = quarter < 64 ? quarter : 64;
@@ -65,6 +67,5 @@ template <class T>
 }
 
 }  // namespace detail
-
 }  // namespace v0
 }  // namespace shadowmath

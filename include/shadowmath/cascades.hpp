@@ -46,7 +46,6 @@
 
 namespace shadowmath {
 inline namespace v0 {
-
 namespace detail {
 
 // The view with what can be mended mended: axes orthonormal, far at the shadow distance.
