@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -136,6 +137,42 @@ TYPED_TEST(BoundsOfManyBoxes, OfBoxesAstrideOfWMinAreThoseOfEachMerged) {
     }
 }
 
+TYPED_TEST(BoundsOfManyBoxes, OfWAlongAnAxisAreThoseOfEachMerged) {
+    using T = TypeParam;
+    for (int i = 0; i < 24; ++i) {
+        this->draw_perspective();
+        for (int column = 0; column < 4; ++column) this->matrix[column][3] = column == i % 3 ? T(1) : T(0);
+        if (i % 2 == 0) this->matrix[i % 3][3] = this->some.from_to(-2, 2);
+        this->matrix[3][3] = T(4);
+        this->draw_boxes(1 + i, 6);
+        this->expect_merged();
+    }
+}
+
+TYPED_TEST(BoundsOfManyBoxes, OfFloorsWallsAndPointsAreThoseOfEachMerged) {
+    for (int i = 0; i < 60; ++i) {
+        if (i % 2 == 0)
+            this->draw_affine();
+        else
+            this->draw_perspective();
+        this->draw_boxes_in_front(1 + i);
+        for (auto& box : this->boxes)
+            for (int axis = 0; axis < 3; ++axis)
+                if (i % 4 == 3 || i / 4 % 3 == axis) box.hi[axis] = box.lo[axis];
+        this->expect_merged();
+    }
+}
+
+// Exactly: of w = -z every place is a number.
+TYPED_TEST(BoundsOfManyBoxes, OfABoxThatEndsAtWMinAreThoseOfItsLastFace) {
+    using T = TypeParam;
+    this->matrix[2][3] = T(-1), this->matrix[3][3] = T(0);
+    this->boxes = {{Vec3<T>(-2, -3, T(-0.5)), Vec3<T>(4, 5, 7)}};
+    Aabb<T> const found = this->bounds();
+    EXPECT_EQ(found.lo, Vec3<T>(-4, -6, -1));
+    EXPECT_EQ(found.hi, Vec3<T>(8, 10, -1));
+}
+
 TYPED_TEST(BoundsOfManyBoxes, OfOneBoxAreItsOwn) {
     for (int i = 0; i < 200; ++i) {
         if (i % 2 == 0)
@@ -203,5 +240,52 @@ TYPED_TEST(BoundsOfManyBoxes, OfBoxesBehindAreEmpty) {
         this->draw_boxes_in_front(1 + 3 * i);
         for (int column = 0; column < 4; ++column) this->matrix[column][3] *= -1;
         EXPECT_TRUE(is_empty(this->bounds()));
+    }
+}
+
+// What is known of the bounds already; a box that is inside all of its sides is not looked at.
+TYPED_TEST(BoundsOfManyBoxes, MayBeExtendedByABoxThatReachesBeyondASideAndByNoOther) {
+    using T = TypeParam;
+    constexpr std::size_t n = detail::bodies_at_once;
+    using Bounds = detail::BoundsOfBoxes<T>;
+    for (int i = 0; i < 60; ++i) {
+        this->draw_perspective();
+        this->draw_boxes_in_front(TestFixture::block);
+        T ends[6][n], size[n];
+        std::uint32_t taken[n];
+        Aabb<Real> exact;
+        for (std::size_t k = 0; k < n; ++k) {
+            Aabb<T> const& box = this->boxes[k];
+            for (int axis = 0; axis < 3; ++axis) ends[axis][k] = box.lo[axis], ends[axis + 3][k] = box.hi[axis];
+            this->add(exact, this->matrix, box, this->w_min);
+            taken[k] = ~0u;
+        }
+        BoxArrays<T> const arrays{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
+        for (std::size_t k = 0; k < n; ++k) size[k] = Bounds::size_of(arrays, static_cast<int>(k));
+        Vec4<T> const rows[4] = {row(this->matrix, 0), row(this->matrix, 1), row(this->matrix, 2),
+                                 row(this->matrix, 3)};
+        Aabb<T> unused;
+        Bounds const of{this->matrix, rows, this->w_min, arrays, TestFixture::block, unused};
+        auto const may = [&](Aabb<T> const& known) {
+            typename Bounds::Side sides[6];
+            EXPECT_TRUE(of.take_sides(known, sides));
+            return of.may_extend(sides, 0, size, taken);
+        };
+        Vec3<T> const room = Vec3<T>(exact.hi - exact.lo) * T(1e-3);
+        Aabb<T> const wider{Vec3<T>(exact.lo) - room, Vec3<T>(exact.hi) + room};
+        EXPECT_FALSE(may(wider)) << i;
+        for (int axis = 0; axis < 3; ++axis) {
+            Aabb<T> shorter = wider;
+            shorter.lo[axis] += T(2) * room[axis];
+            EXPECT_TRUE(may(shorter)) << i << ' ' << axis;
+            shorter = wider;
+            shorter.hi[axis] -= T(2) * room[axis];
+            EXPECT_TRUE(may(shorter)) << i << ' ' << axis;
+            for (auto& one : taken) one = 0;
+            EXPECT_FALSE(may(shorter)) << "by none that counts";
+            for (auto& one : taken) one = ~0u;
+        }
+        typename Bounds::Side sides[6];
+        EXPECT_FALSE(of.take_sides({}, sides));
     }
 }
