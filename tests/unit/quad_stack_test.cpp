@@ -173,6 +173,28 @@ TEST(QuadStack, APartThatAnEarlierMapHoldsGetsNone) {
     EXPECT_EQ(stack.held_count, 1);
 }
 
+TEST(QuadStack, WhatAnEarlierMapHoldsHasNoSayInALaterOne) {
+    auto const later_map = [](double pixels_a_metre) {
+        Field field;
+        field.cut_at(4.5);
+        // They overlap: two rows of the nearer part are in the farther one too.
+        field.tree.node[2].part.lo[detail::depth_axis] = 2.5;
+        auto& work = field.work;
+        for (int i = 0; i < work.count; ++i)
+            if (work.sample[unsigned(i)].seen.z > 2.5 && work.sample[unsigned(i)].seen.z < 4.5)
+                work.sample[unsigned(i)] = sample_at(work.sample[unsigned(i)].place, pixels_a_metre);
+        auto const stack = detail::stacked(field.search, field.tree, field.cover());
+        EXPECT_EQ(stack.count, 2);
+        for (int i = 0; i < work.count; ++i)
+            EXPECT_EQ(stack.holder(work.sample[unsigned(i)]), work.sample[unsigned(i)].seen.z < 4.5 ? 0 : 1);
+        return stack.quad[1];
+    };
+    auto const some = later_map(2000.0), other = later_map(0.1);
+    EXPECT_EQ(some.x, other.x);
+    EXPECT_EQ(some.y, other.y);
+    EXPECT_EQ(some.w, other.w);
+}
+
 TEST(QuadStack, ThePriceIsThatOfTheFirstMapThatHoldsAndOfALostShadowElsewhere) {
     Field field;
     field.cut_at(4.5);

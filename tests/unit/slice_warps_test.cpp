@@ -162,6 +162,45 @@ TYPED_TEST(SliceWarps, OfMoreSplitsThanThereIsRoomForWriteNothing) {
     EXPECT_EQ(this->maps[1].faults.bits, before.faults.bits);
 }
 
+TYPED_TEST(SliceWarps, OfAMarginBelowNothingHaveNone) {
+    using T = TypeParam;
+    for (T const margin : {T(0), T(-3)}) {
+        this->options.margin_texels = margin;
+        EXPECT_EQ(this->fitted(this->town), 0x3fu);
+        for (int i = 0; i < 6; ++i) {
+            ShadowMap<T> const twin = this->twin(i, this->sun);
+            EXPECT_LT(apart(this->maps[i].clip_from_world, twin.clip_from_world),
+                      T(2 * 16 * 800 / 0.1) * std::numeric_limits<T>::epsilon());
+            EXPECT_EQ(this->maps[i].faults.bits, twin.faults.bits);
+        }
+    }
+}
+
+TYPED_TEST(SliceWarps, OfABlendThatIsNoNumberHaveNone) {
+    using T = TypeParam;
+    auto const fitted = [this](T blend) {
+        return fit_slice_warps(this->view, this->sun, this->splits, blend, this->town, this->town, this->options,
+                               gl_clip, this->maps);
+    };
+    EXPECT_EQ(fitted(T(0)), 0x3fu);
+    Mat4<T> wanted[6];
+    for (int i = 0; i < 6; ++i) wanted[i] = this->maps[i].clip_from_world;
+    EXPECT_EQ(fitted(std::numeric_limits<T>::quiet_NaN()), 0x3fu);
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(this->maps[i].clip_from_world, wanted[i]);
+}
+
+TYPED_TEST(SliceWarps, OfPlanesThatAreNoNumbersAreWrittenAndNoMore) {
+    using T = TypeParam;
+    Splits<T> endless = this->splits;
+    endless.plane[6] = std::numeric_limits<T>::infinity();
+    this->maps[6].faults = Fault::bad_region;
+    EXPECT_EQ(fit_slice_warps(this->view, this->sun, endless, T(0), this->town, this->town, this->options, gl_clip,
+                              this->maps),
+              0u);
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(this->maps[i].faults.bits, Faults(Fault::not_finite).bits);
+    EXPECT_EQ(this->maps[6].faults.bits, Faults(Fault::bad_region).bits);
+}
+
 TYPED_TEST(SliceWarps, NameWhatIsWrong) {
     using T = TypeParam;
     constexpr T nan = std::numeric_limits<T>::quiet_NaN();

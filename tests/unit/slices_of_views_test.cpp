@@ -75,6 +75,20 @@ std::vector<Mat4<T>> twin_of(ViewVolume<T> const& view, int splits, LightBasis<T
     return maps;
 }
 
+// A block at once; no maps where not all of its views are ordinary.
+template <class T>
+std::vector<Mat4<T>> made_at_once(std::vector<ViewVolume<T>> const& views, T lambda = T(0.5), T border = T(0.01),
+                                  ClipSpace clip = gl_clip) {
+    std::vector<Mat4<T>> maps(4 * block, Mat4<T>(T(7)));
+    auto const basis = some_basis<T>();
+    detail::MapInLanes<T> const map = detail::map_in_lanes(clip, T(2) - T(4) * border);
+    bool ordinary = false;
+    detail::SlicesOfViews<T>{views.data(), basis, lambda, map, maps.data(), ordinary}();
+    if (ordinary) return maps;
+    for (Mat4<T> const& untouched : maps) EXPECT_EQ(untouched, Mat4<T>(T(7)));
+    return {};
+}
+
 }  // namespace
 
 TYPED_TEST(SlicesOfViews, AreThoseOfEachViewHoweverManyThereAre) {
@@ -107,6 +121,65 @@ TYPED_TEST(SlicesOfViews, HoldEveryCornerOfTheirSlices) {
     }
 }
 
+TYPED_TEST(SlicesOfViews, OfABlockOfOrdinaryViewsAreMadeAtOnce) {
+    using T = TypeParam;
+    auto const views = cameras<T>(block);
+    for (T const lambda : {T(0.1), T(0.7), T(1)})
+        for (T const border : {T(0), T(0.02), T(0.49)}) {
+            auto const at_once = made_at_once(views, lambda, border);
+            ASSERT_FALSE(at_once.empty()) << lambda << ' ' << border;
+            for (std::size_t i = 0; i < views.size(); ++i) {
+                auto const twin = twin_of(views[i], 4, some_basis<T>(), lambda, border);
+                for (std::size_t k = 0; k < 4; ++k)
+                    EXPECT_TRUE(laws::is_nearly(at_once[4 * i + k], twin[k])) << i << ' ' << k;
+            }
+        }
+}
+
+TYPED_TEST(SlicesOfViews, OfABlockWithOneOddViewAreNotMadeAtOnce) {
+    using T = TypeParam;
+    auto const good = cameras<T>(block);
+    auto const expect_refused = [&](auto const& spoil) {
+        for (std::size_t at = 4; at < 8; ++at) {
+            auto views = good;
+            spoil(views[at]);
+            EXPECT_TRUE(made_at_once(views).empty()) << at;
+        }
+    };
+    expect_refused([](ViewVolume<T>& view) { view.kind = ViewKind::orthographic; });
+    expect_refused([](ViewVolume<T>& view) { view.left = view.right; });
+    expect_refused([](ViewVolume<T>& view) { view.bottom = view.top; });
+    expect_refused([](ViewVolume<T>& view) { view.z_near = view.z_far; });
+    expect_refused([](ViewVolume<T>& view) { view.z_far = T(0x1p61); });
+    expect_refused([](ViewVolume<T>& view) { view.z_near = T(1e-5), view.z_far = T(1e17); });
+    for (T const bad : {T(0x1p61), T(-0x1p61), std::numeric_limits<T>::infinity()}) {
+        for (Vec3<T> Pose<T>::*part : {&Pose<T>::position, &Pose<T>::right, &Pose<T>::up, &Pose<T>::forward})
+            for (int axis = 0; axis < 3; ++axis)
+                expect_refused([&](ViewVolume<T>& view) { (view.pose.*part)[axis] = bad; });
+        for (T ViewVolume<T>::*side :
+             {&ViewVolume<T>::left, &ViewVolume<T>::right, &ViewVolume<T>::bottom, &ViewVolume<T>::top})
+            expect_refused([&](ViewVolume<T>& view) { view.*side = bad; });
+    }
+}
+
+TYPED_TEST(SlicesOfViews, OfABlockWithASliceOfNoLengthAreNotMadeAtOnce) {
+    using T = TypeParam;
+    int refused = 0;
+    for (T const lambda : {T(0.25), T(0.5), T(1)})
+        for (T const z_near : {T(1), T(1.3), T(1.9)}) {
+            auto views = cameras<T>(block);
+            T z_far = z_near;
+            for (int ulps = 1; ulps < 12; ++ulps) {
+                z_far = std::nextafter(z_far, T(2) * z_far);
+                views[9].z_near = z_near, views[9].z_far = z_far;
+                if (practical_splits(z_near, z_far, 4, lambda).count == 4) continue;
+                EXPECT_TRUE(made_at_once(views, lambda).empty()) << lambda << ' ' << z_near << ' ' << ulps;
+                ++refused;
+            }
+        }
+    EXPECT_GT(refused, 20);
+}
+
 TYPED_TEST(SlicesOfViews, OfFewerThanABlockAreTheOnesOfOneViewBitForBit) {
     using T = TypeParam;
     for (int const count : {1, block - 1, block + 3}) {
@@ -129,6 +202,19 @@ TYPED_TEST(SlicesOfViews, OfAnyNumberOfSplitsAreThoseOfOneView) {
             auto const twin = twin_of(views[i], splits);
             for (int k = 0; k < splits; ++k) EXPECT_EQ(fitted.map(i, k), twin[static_cast<std::size_t>(k)]) << i;
         }
+    }
+}
+
+TYPED_TEST(SlicesOfViews, AreOfTheViewsFromTheFirstThatIsGivenOn) {
+    using T = TypeParam;
+    auto const views = cameras<T>(4 * block);
+    std::vector<Mat4<T>> maps(8 * block);
+    EXPECT_EQ(fit_slice_boxes_of(views.data() + 2 * block, 2 * block, some_basis<T>(), 4, T(0.5), T(0.01), gl_clip,
+                                 maps.data()),
+              2 * block);
+    for (std::size_t i = 0; i < 2 * block; ++i) {
+        auto const twin = twin_of(views[2 * block + i], 4);
+        for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(laws::is_nearly(maps[4 * i + k], twin[k])) << i << ' ' << k;
     }
 }
 
