@@ -157,6 +157,9 @@ TYPED_TEST(CastersIn, HaveTheBoundsOfTheirPartAboveTheLeastWAndWhatRoundingMayAd
     int clipped = 0, behind = 0, whole = 0;
     for (int round = 0; round < 60; ++round) {
         this->throw_vertices(48, 3, round % 3 == 0 ? 4.0 : 40.0);
+        // Within a metre of the eye.
+        for (std::uint32_t i = 0; i < 144 && round % 3 == 1; ++i)
+            this->numbers[i] = this->numbers[i] / 200 + this->buffer.frame.eye[int(i % 3)];
         typename TestFixture::Batch batch{};
         this->kernel().load(0, 16, nullptr, batch);
         TypeParam const reach = batch.reach;
@@ -180,8 +183,20 @@ TYPED_TEST(CastersIn, HaveTheBoundsOfTheirPartAboveTheLeastWAndWhatRoundingMayAd
         }
     }
     EXPECT_GT(clipped, 50);
-    EXPECT_GT(behind, 10);
+    EXPECT_GT(behind, 3);
     EXPECT_GT(whole, 300);
+}
+
+TYPED_TEST(CastersIn, HaveAPartWhereOneCornerIsJustAtTheLeastW) {
+    using T = typename TypeParam::Scalar;
+    T const floor = this->w_floor;
+    T const at[3][4] = {{T(1), T(2), T(0), floor}, {T(9), T(9), T(0), T(0.1)}, {T(-9), T(-9), T(0), T(-3)}};
+    T bounds[4];
+    EXPECT_TRUE(this->kernel().clip(at, bounds));
+    EXPECT_EQ(bounds[0], T(4));
+    EXPECT_EQ(bounds[1], T(4));
+    EXPECT_EQ(bounds[2], T(8));
+    EXPECT_EQ(bounds[3], T(8));
 }
 
 // The receivers' bounds end at those of the triangles, once just before and once just beyond.
@@ -231,6 +246,8 @@ TYPED_TEST(CastersIn, AreLoadedInAnyOrderFromAnyStrideAndByIndicesThatThereAre) 
             this->indices.clear();
             for (std::uint32_t i = 0; i < 3 * triangles; ++i)
                 this->indices.push_back(this->below(3 * triangles + (round < 20 ? 0 : 12)));
+            // The first that is none.
+            for (int i = 0; i < 20 && round >= 20; ++i) this->indices[this->below(3 * triangles)] = 3 * triangles;
             this->casters.index = this->indices.data();
         } else if (round >= 20) {
             this->casters.vertex_count -= 1 + this->below(60);

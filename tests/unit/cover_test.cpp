@@ -142,7 +142,8 @@ TYPED_TEST(CoverIn, DarkenTheSamplesWithinAllFourPlanesOfPixelsThatTheyReach) {
         EXPECT_EQ(this->queue->tiles, 0u);
         EXPECT_EQ(this->queue->slots, 0u);
         for (std::uint32_t tile = 0; tile < tile_count; ++tile) {
-            auto const now = this->state.begin() + tile * tile_words, was = before.begin() + tile * tile_words;
+            std::uint32_t const* const now = this->state.data() + tile * tile_words;
+            std::uint32_t const* const was = before.data() + tile * tile_words;
             EXPECT_TRUE(std::equal(now, now + alive_at, was)) << "keys are read";
             std::uint32_t alive = was[alive_at];
             for (int k = 0; k < lane_count; ++k) {
