@@ -286,7 +286,13 @@ TEST_F(Listing, LeavesOutWhatIsNearerThanTheMapsLeastW) {
     StorageSize const size = storage_for(48, 32, 16);
     int last = 48 * 32 + 1;
     for (float const w_min : {-1.0f, 0.0f, 0.5f, 3.5f, 4.2f}) {
+        // And of a matrix a fifth as large w is a fifth.
         map.w_min = w_min;
+        ShadowMap<float> fifth = map;
+        fifth.clip_from_world *= 0.2f;
+        fifth.w_min = 0.2f * w_min;
+        EXPECT_NEAR(list(fifth, 16, size, lamp).most_w, 0.2f * list(map, 16, size, lamp).most_w, 1e-5);
+        EXPECT_NEAR(list(fifth, 16, size, lamp).least_w, 0.2f * list(map, 16, size, lamp).least_w, 1e-5);
         auto const buffer = list(map, 16, size, lamp);
         ASSERT_FALSE(buffer.faults.any());
         int alive = 0, above = 0, near_w_min = 0;
