@@ -136,8 +136,8 @@ TEST_F(FourWarps, OfSlicesThatSeeNothingAreCalm) {
 TEST_F(FourWarps, HoldCastersFarAboveWhatIsSeen) {
     for (V3 const& towards : {V3(1, 0, 0), V3(0, 0, -1), V3(0, -1, 0)}) {
         sun = directional(V3(0, -1, 0));
-        view.pose = pose_looking(V3(0), towards, V3(0.1, 0.3, 1));
-        V3 const seen = towards * 60.0, up = seen + V3(0, 20e3, 0);
+        view.pose = pose_looking(V3(1, -2, 3), towards, V3(0.1, 0.3, 1));
+        V3 const seen = view.pose.position + towards * 60.0, up = seen + V3(0, 20e3, 0);
         receivers = {seen - V3(0.5), seen + V3(0.5)};
         casters = merge(receivers, up);
         unsigned const visible = fit();
@@ -156,7 +156,7 @@ TEST_F(FourWarps, HoldCastersFarAboveWhatIsSeen) {
 TEST_F(FourWarps, HoldTheFloorOfARoomAlone) {
     sun = directional(V3(0, -1, 0));
     for (double const height : {-30.0, 5.0}) {
-        view.pose = pose_looking(V3(0), V3(0, height > 0 ? 1 : -1, 0.3), V3(0, 0.3, 1));
+        view.pose = pose_looking(V3(1, 0, 2), V3(0, height > 0 ? 1 : -1, 0.3), V3(0, 0.3, 1));
         receivers = {V3(-200, height, -200), V3(200, height + 20, 200)};
         casters = {receivers.lo, V3(200, height, 200)};
         EXPECT_NE(fit(), 0u) << height;
@@ -168,9 +168,9 @@ TEST_F(FourWarps, SayWhereTheLastBitOfAPlaceIsMoreThanATexel) {
     options.map_size = 1 << 14;
     for (int i = 0; i < 20; ++i) {
         sun = directional(some.point(1));
-        view.pose = pose_looking(V3(0), some.point(1), some.point(1));
-        V3 const seen = view.pose.forward * 150.0;
-        receivers = casters = {seen - V3(1), seen + V3(1)};
+        view.pose = pose_looking(V3(1, -2, 3), some.point(1), some.point(1));
+        V3 const seen = view.pose.forward * 150.0, here = seen + view.pose.position;
+        receivers = casters = {here - V3(1), here + V3(1)};
         ASSERT_NE(fit() & 8u, 0u);
         double const across = glm::length(V3(row(maps[3].clip_from_world, 0)));
         double const along = glm::length(V3(row(maps[3].clip_from_world, 1)));
@@ -219,7 +219,7 @@ TEST(FourWarpsOfFloats, OfAFloorAcrossTheLightHaveADepthForIt) {
     using V3 = Vec3<float>;
     Light<float> const sun = directional(V3(0, -1, 0));
     ViewVolume<float> const view =
-        perspective_view(pose_looking(V3(0), V3(0.2f, -0.3f, 1), V3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
+        perspective_view(pose_looking(V3(1, 0, 2), V3(0.2f, -0.3f, 1), V3(0, 1, 0)), 1.0f, 1.6f, 0.1f, 200.0f);
     Aabb<float> const floor{V3(-1000, -6, -1000), V3(1000, -6, 1000)};
     for (ClipSpace const clip : {gl_clip, vulkan_clip, reversed(d3d_clip)}) {
         Splits<float> const splits = practical_splits(0.1f, 200.0f, 4);
