@@ -24,10 +24,9 @@ using E4 = std::array<Exact, 4>;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-template <class Lanes>
+// NOTE: T and Real are parameters, as what the tests name alike would shadow a member.
+template <class Lanes, class T = typename Lanes::Scalar, class Real = Wider<T>>
 struct CastersIn : ::testing::Test {
-    using T = typename Lanes::Scalar;
-    using Real = Wider<T>;
     using Batch = detail::CasterBatch<Lanes>;
 
     std::mt19937 bits{20021201};

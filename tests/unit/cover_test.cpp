@@ -23,14 +23,15 @@ using Exact = long double;
 
 constexpr int tiles_across = 3, tile_rows_of_all = 7, tile_count = tiles_across * tile_rows_of_all;
 
-template <class Lanes>
+// NOTE: T is a parameter, as what the tests name alike would shadow a member.
+template <class Lanes, class T = typename Lanes::Scalar>
 struct CoverIn : ::testing::Test {
-    using T = typename Lanes::Scalar;
     using Real = Wider<T>;
     using Raised = detail::RaisedTriangle<T>;
     using Queue = typename detail::CoverKernel<Lanes>::Queue;
 
     std::mt19937 bits{20021201};
+    std::uint32_t word() { return static_cast<std::uint32_t>(bits()); }
     IrregularBuffer<T> buffer;
     PixelFrame<Real> frame;
     std::vector<T> surface = std::vector<T>(tile_count * tile_scalars);
@@ -63,7 +64,7 @@ struct CoverIn : ::testing::Test {
             for (int i = 0; i < 80; ++i) keys[i] = static_cast<unsigned char>(below(256));
             words[alive_at] = below(1u << 16) | below(1u << 16);
             for (int k = 0; k < lane_count; ++k)
-                words[mask_at + k] = (words[alive_at] >> k & 1u) != 0 ? bits() & bits() & 0x7fffffffu : bits();
+                words[mask_at + k] = (words[alive_at] >> k & 1u) != 0 ? word() & word() & 0x7fffffffu : word();
         }
         for (Raised& one : raised) {
             // Four lines about a place among the tiles; two of three are wide apart.

@@ -21,7 +21,7 @@ struct SliceEdges : ::testing::Test {
     static Bounds bounds_of(ViewVolume<T> const& view, LightBasis<T> const& basis, Splits<T> const& splits,
                             Aabb<T> const& scene) {
         using namespace shadowmath::detail;
-        ViewOfBox<T> seen;
+        ViewOfBox<T> seen{};
         seen.pose = &view.pose;
         EXPECT_TRUE(look(basis, view, seen.lit));
         EXPECT_TRUE(look_at_box(view, splits.plane[4], scene, seen));

@@ -34,9 +34,9 @@ constexpr Form forms[] = {{false, false, false, 3, 3}, {false, false, true, 3, 3
                           {false, true, true, 3, 4},   {true, false, false, 3, 3}, {true, false, true, 4, 6},
                           {true, true, false, 3, 3},   {true, true, true, 3, 3}};
 
-template <class Lanes>
+// NOTE: T is a parameter, as what the tests name alike would shadow a member.
+template <class Lanes, class T = typename Lanes::Scalar>
 struct TileIn : ::testing::Test {
-    using T = typename Lanes::Scalar;
     using Kernel = detail::TileKernel<Lanes>;
 
     std::mt19937 bits{20021201};
@@ -240,7 +240,7 @@ TYPED_TEST(TileIn, IsSeenAsItsPixelsAreOneByOne) {
             this->kernel().see(tile, column, row, seen);
             auto const lo_x = this->numbers(seen.lo_x), hi_x = this->numbers(seen.hi_x),
                        lo_y = this->numbers(seen.lo_y), hi_y = this->numbers(seen.hi_y),
-                       depth = this->numbers(seen.depth), lo_w = this->numbers(seen.lo_w),
+                       depths = this->numbers(seen.depth), lo_w = this->numbers(seen.lo_w),
                        hi_w = this->numbers(seen.hi_w);
             T bounds[5];
             for (int i = 0; i < 5; ++i)
@@ -265,12 +265,12 @@ TYPED_TEST(TileIn, IsSeenAsItsPixelsAreOneByOne) {
                 this->expect_near(hi_x[k], pixel.keys[1], "hi x");
                 this->expect_near(lo_y[k], pixel.keys[2], "lo y");
                 this->expect_near(hi_y[k], pixel.keys[3], "hi y");
-                this->expect_near(depth[k], pixel.keys[4], "depth");
+                this->expect_near(depths[k], pixel.keys[4], "depth");
                 this->expect_near(lo_w[k], pixel.lo_w, "lo w");
                 this->expect_near(hi_w[k], pixel.hi_w, "hi w");
                 bounds[0] = std::min(bounds[0], lo_x[k]), bounds[1] = std::max(bounds[1], hi_x[k]);
                 bounds[2] = std::min(bounds[2], lo_y[k]), bounds[3] = std::max(bounds[3], hi_y[k]);
-                bounds[4] = std::max(bounds[4], depth[k]);
+                bounds[4] = std::max(bounds[4], depths[k]);
                 // The tile's q is that of its first pixel; what is left over is known to far more digits.
                 T const tile_q = kept[tile_q_at];
                 if (first) this->expect_near(tile_q, pixel.quad.q, "q");
@@ -445,18 +445,18 @@ TYPED_TEST(TileIn, IsListedInPartsThatLieTogether) {
         for (bool const upward : {false, true}) {
             this->take(forms[0]);
             typename TestFixture::Kernel::Seen seen;
-            T lo[lane_count], hi[lane_count], depth[lane_count];
+            T lo[lane_count], hi[lane_count], depths[lane_count];
             for (int k = 0; k < lane_count; ++k) {
                 lo[k] = T(5 + (k % 4 >= 2 ? row.half : 0) + (k == 5 ? row.one : 0));
                 hi[k] = lo[k] + T(0.5);
-                depth[k] = T(k);
+                depths[k] = T(k);
             }
             auto const all = [](double value) { return TypeParam::all(T(value)); };
             (upward ? seen.lo_y : seen.lo_x) = TypeParam::load(lo);
             (upward ? seen.hi_y : seen.hi_x) = TypeParam::load(hi);
             (upward ? seen.lo_x : seen.lo_y) = all(7);
             (upward ? seen.hi_x : seen.hi_y) = all(7.25);
-            seen.depth = TypeParam::load(depth);
+            seen.depth = TypeParam::load(depths);
             seen.alive = row.alive;
             this->kernel().insert(this->parts, 3, seen, row.alive, tile_side);
             auto const& b = this->buffer;
@@ -466,7 +466,7 @@ TYPED_TEST(TileIn, IsListedInPartsThatLieTogether) {
             T least = T(1e9), most = T(-1e9), deepest = T(-1e9);
             for (int k = 0; k < lane_count; ++k) {
                 if ((row.alive >> k & 1u) == 0) continue;
-                least = std::min(least, lo[k]), most = std::max(most, hi[k]), deepest = std::max(deepest, depth[k]);
+                least = std::min(least, lo[k]), most = std::max(most, hi[k]), deepest = std::max(deepest, depths[k]);
                 bool held = false;
                 for (std::uint32_t n = 0; n < row.nodes; ++n) {
                     T const* const node = this->parts.bounds + 5 * n;
@@ -475,7 +475,7 @@ TYPED_TEST(TileIn, IsListedInPartsThatLieTogether) {
                     EXPECT_EQ(node[upward ? 1 : 3], T(7.25));
                     T const from = node[upward ? 2 : 0], to = node[upward ? 3 : 1];
                     EXPECT_LE(to - from, row.nodes > 1 ? T(2.0001) : T(4.0001));
-                    held = held || (from <= lo[k] && hi[k] <= to && depth[k] <= node[4]);
+                    held = held || (from <= lo[k] && hi[k] <= to && depths[k] <= node[4]);
                 }
                 EXPECT_TRUE(held) << k;
             }

@@ -19,7 +19,6 @@ namespace {
 template <class Lanes>
 class X86Lanes : public ::testing::Test {
 protected:
-    using Plain = PlainLanes<float>;
     using Array = std::array<float, 16>;
 
     std::mt19937 bits{20021201};
@@ -87,8 +86,8 @@ TYPED_TEST(X86Lanes, DoWhatAnArrayDoes) {
         same(with_sign_of(a, b), with_sign_of(p, q), "sign");
         auto const signs = this->stored(with_sign_of(c, b));
         for (std::size_t k = 0; k < 16; ++k) EXPECT_EQ(std::signbit(signs[k]), std::signbit(y[k]));
-        std::uint32_t const bits = this->bits() & 0xffffu;
-        same(chosen(bits, a, b), chosen(bits, p, q), "chosen");
+        auto const which = static_cast<std::uint32_t>(this->bits() & 0xffffu);
+        same(chosen(which, a, b), chosen(which, p, q), "chosen");
         EXPECT_EQ(at_least(a, b), at_least(p, q));
         EXPECT_EQ(smallest(c), smallest(r));
         EXPECT_EQ(largest(c), largest(r));
@@ -138,7 +137,7 @@ TYPED_TEST(X86Lanes, GatherAsAnArrayDoes) {
         float const* const row[4] = {&from[this->bits() % 80], &from[this->bits() % 80], &from[this->bits() % 80],
                                      &from[this->bits() % 80]};
         this->expect_same(this->stored(TypeParam::rows(row)), this->stored(Plain::rows(row)), "rows");
-        std::uint32_t const step = this->bits() % 97;
+        auto const step = static_cast<std::uint32_t>(this->bits() % 97);
         auto const at = [&](int k) { return from.data() + (std::uint32_t(k) * step + 5) % 98; };
         TypeParam triples[3], points[3];
         Plain plain_triples[3], plain_points[3];
