@@ -6,6 +6,7 @@
 #include "examples/support/example.hpp"
 #include "examples/support/raster.hpp"
 
+#include <shadowmath/cascades.hpp>
 #include <shadowmath/sampling.hpp>
 #include <shadowmath/sdsm.hpp>
 

@@ -5065,353 +5065,860 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/culling.hpp ========
+// ======== shadowmath/cascade.hpp ========
 //
-// Which maps an object must be drawn into: a bit for each map, and the range [first, last] that one instanced draw
-// covers.
-//
-//        light              A caster counts for a map when it reaches into the shaft of light that ends in the map:
-//     |  A |                between its four sides, before its far end, and as far toward the light as you like.
-//   B |    | C              A counts although it lies above the near plane: it is drawn flat where depth is clamped,
-//     |____|   near         and lost where it is not. B and C cannot shadow anything that the map holds; D lies behind
-//     | map|                the last receiver.
-//     |____|   far
-//       D                   A map's matrix is all that is read, so sun, spot, warped and view-dependent maps mix.
-//
-// A box is outside a map when it is wholly outside ONE of the five planes: the usual test, which may keep a box that
-// passes diagonally by an edge of the shaft, and never drops one that reaches inside. Nothing is divided by w, so boxes
-// may lie astride the plane w = 0.
-//
-// Source: the range of splits of an object is that of Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: the near
-// side is open, and all maps of one sun are tested together: they look the same way and share their five normals.
+// What cascades are: maps of one light, each with the depths that it serves, and what is asked of them. Values alone,
+// for all that reads cascades (gpu.hpp, judge.hpp) or makes them in its own way (sdsm.hpp); cascades.hpp fits them.
 
 namespace shadowmath {
 inline namespace v0 {
 
-// Bit i: the i-th map.
-using MapMask = std::uint16_t;
+// What each is good for: cascades.hpp.
+enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus, warped };
 
-inline constexpr int max_caster_maps = 16;
-static_assert(max_splits <= max_caster_maps, "one mask holds all cascades");
-
-struct MapRange {
-    int first = 0;
-    int last = -1;  // first > last: no map
+template <class T>
+struct CascadeOptions {
+    int count = 4;        // maps, 1 to max_splits
+    int map_size = 2048;  // texels along one side of each
+    CascadeFit fit = CascadeFit::stable;
+    int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
+    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none; see warp_less
+    T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
+    T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
+    T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
+    T blend = T(0.1);          // fraction of each slice that fades into the next; 0: hard seams
+    int filter_radius = 1;     // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
+    bool pancake = false;      // true: near plane at the slice, and the renderer turns depth clamp ON
+    ClipSpace clip = gl_clip;  // the convention of the pass that draws the maps
+    std::array<T, max_splits> warp_less{};  // the share of warp_strength that each map goes without, [0, 1]
 };
 
-// The shafts of up to max_caster_maps maps, as add_map gives them to caster_mask.
 template <class T>
-struct CasterMaps {
-    // Up to four maps that look the same way. A point p is inside where normal . p >= least, for all five sides.
-    struct Bundle {
-        Vec3<T> normal[5];  // left, right, bottom, top, far
-        T least[5][4] = {};
-        MapMask bit[4] = {};  // 0: no map here
-    };
-    Bundle bundle[max_caster_maps];
-    int bundle_count = 0;
-    int map_count = 0;  // those that were never visible count too, and keep their bit clear
+struct Cascade {
+    ShadowMap<T> map;
+    SliceRange<T> range;    // metres of eye depth that it serves
+    T texel_metres = T(0);  // across the light; 0 of a spot or a warped map, whose texels grow with distance
+    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of those
+};
+
+template <class T>
+struct Cascades {
+    Cascade<T> at[max_splits];
+    int count = 0;  // 0: nothing to draw, everything lit
+    Faults faults;  // of the inputs, and of every map
+
+    [[nodiscard]] Cascade<T> const* begin() const noexcept { return at; }
+    [[nodiscard]] Cascade<T> const* end() const noexcept { return at + count; }
 };
 
 namespace detail {
 
+// Texels: what is asked for, brought between none and a quarter of the map.
 template <class T>
-[[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
-    return all_finite(v) && largest_of(v) < T(0x1p60);
-}
-
-// Not empty, and in reach.
-template <class T>
-[[nodiscard]] inline bool is_ordinary(Aabb<T> const& box) noexcept {
-    return all_in_reach(box.lo) && all_in_reach(box.hi) && !is_empty(box);
-}
-
-// lo > hi, infinite ends included; false where one is NaN, and no signal of one.
-template <class T>
-[[nodiscard]] inline bool are_crossed(T const& lo, T const& hi) noexcept {
-    T const below = -hi;
-    return (all_finite(&lo, 1) || is_positive_infinity(&lo)) && (all_finite(&hi, 1) || is_positive_infinity(&below)) &&
-           lo > hi;
-}
-
-// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates: 6 epsilon for
-// the roundings of growing, of a dot product and of its normal, 4 for a normal shared by maps; the rest is room.
-template <class T>
-inline constexpr T box_slack = T(16) * std::numeric_limits<T>::epsilon();
-
-// xyz over its largest component, which is then 1, so that no product with a coordinate in reach overflows.
-template <class T>
-[[nodiscard]] inline Vec4<T> side_plane(Vec4<T> const& plane) noexcept {
-    T const largest = std::fmax(std::abs(plane.x), std::fmax(std::abs(plane.y), std::abs(plane.z)));
-    constexpr T beyond_all = T(0x1p70);
-    if (!(largest > T(0))) return Vec4<T>(T(0), T(0), T(0), plane.w < T(0) ? -beyond_all : beyond_all);
-    // Up by its own roundings.
-    T const offset = plane.w / largest * (T(1) + (plane.w < T(0) ? T(-4) : T(4)) * std::numeric_limits<T>::epsilon());
-    return Vec4<T>(plane.x / largest, plane.y / largest, plane.z / largest,
-                   offset < -beyond_all ? -beyond_all : (offset > beyond_all ? beyond_all : offset));
-}
-
-// How far something reaches along the five normals of a bundle.
-template <class T>
-struct Reaches {
-    T left, right, bottom, top, last;
-};
-
-// The maps of one bundle that something with these reaches is inside of.
-// NOTE: all is written out, with & for &&: at -O2 compilers unroll no inner loop, and do many boxes at once only where
-// there is neither loop nor branch.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline std::uint32_t bit_if_inside(typename CasterMaps<T>::Bundle const& bundle,
-                                                                     Reaches<T> const& reach, int place,
-                                                                     std::uint32_t bit) noexcept {
-    bool const inside = (reach.left >= bundle.least[0][place]) & (reach.right >= bundle.least[1][place]) &
-                        (reach.bottom >= bundle.least[2][place]) & (reach.top >= bundle.least[3][place]) &
-                        (reach.last >= bundle.least[4][place]);
-    return inside ? bit : 0u;
-}
-
-template <class T>
-[[nodiscard, gnu::always_inline]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
-                                                                   Reaches<T> const& reach) noexcept {
-    return bit_if_inside<T>(bundle, reach, 0, bundle.bit[0]) | bit_if_inside<T>(bundle, reach, 1, bundle.bit[1]) |
-           bit_if_inside<T>(bundle, reach, 2, bundle.bit[2]) | bit_if_inside<T>(bundle, reach, 3, bundle.bit[3]);
-}
-
-template <class T>
-[[nodiscard]] inline MapMask every_bit(CasterMaps<T> const& maps) noexcept {
-    unsigned mask = 0;
-    for (int b = 0; b < maps.bundle_count; ++b)
-        for (MapMask const bit : maps.bundle[b].bit) mask |= bit;
-    return static_cast<MapMask>(mask);
+[[nodiscard]] inline int kernel_radius(CascadeOptions<T> const& options, Faults& faults) noexcept {
+    int const quarter = options.map_size > 0 ? options.map_size / 4 : 0, most = quarter < 64 ? quarter : 64;
+    int const radius = options.filter_radius < 0 ? 0 : (options.filter_radius > most ? most : options.filter_radius);
+    if (radius != options.filter_radius) faults |= Fault::clamped_option;
+    return radius;
 }
 
 }  // namespace detail
+}  // namespace v0
+}  // namespace shadowmath
 
-// The map gets the next bit. One that is not visible, or whose matrix is not finite, is never cast into. At most
-// max_caster_maps.
+// ======== shadowmath/sampling.hpp ========
+//
+// Which map a point is looked up in, and what its shadow does to its colour: what a receiver shader decides, on the
+// CPU.
+//
+//   by_depth   the slice of the view that the point's eye depth falls into, fading into the next one. For cascades.
+//   by_map     the first map that holds the point, kernel included. Maps stand in order of preference, so this is also
+//              the order of fallback: a warp before the plain map that catches what the warp cannot see. With cascades
+//              it uses the sharper map wherever maps overlap, at the cost of seams that move with the view.
+//
+// Outside everything is lit.
+
+namespace shadowmath {
+inline namespace v0 {
+
 template <class T>
-inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
-    SHADOWMATH_ASSERT(maps.map_count < max_caster_maps, "more maps than a mask has bits");
-    if (maps.map_count >= max_caster_maps) return;
-    auto const bit = static_cast<MapMask>(1u << maps.map_count++);
-    if (!map.visible || !all_finite(map.clip_from_world)) return;
-    // Halves: a sum of two finite numbers may overflow.
-    Mat4<T> const m = map.clip_from_world * T(0.5);
-    Vec4<T> const x = row(m, 0), y = row(m, 1), z = row(m, 2), w = row(m, 3);
-    Vec4<T> const last = map.clip.depth == DepthOrder::one_to_zero ? z : w - z;
-    typename CasterMaps<T>::Bundle own;
-    int side = 0;
-    for (Vec4<T> const& inner : {w + x, w - x, w + y, w - y, last}) {
-        Vec4<T> const plane = detail::side_plane(inner);
-        own.normal[side] = Vec3<T>(plane);
-        own.least[side++][0] = -plane.w;
+struct LookUp {
+    int first = -1;   // map to read; -1: none, the point is lit
+    int second = -1;  // map to fade into; -1 with blend > 0: into light
+    T blend = T(0);   // share of the second, [0, 1]
+};
+
+// True when the map can answer for the point: w above w_min, at least `margin_texels` inside the four sides, and not
+// beyond the map's far end. Nearer to the light than its near end it can: nothing that matters lies in between.
+template <class T>
+[[nodiscard]] inline bool contains(ShadowMap<T> const& map, int map_size, T margin_texels,
+                                   Vec3<T> const& point) noexcept {
+    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
+    if (!map.visible || !at.in_front || map_size < 1 || !all_finite(&margin_texels, 1)) return false;
+    T const side = T(1) - T(2) * margin_texels / T(map_size);
+    bool const before_far_end = map.clip.depth == DepthOrder::one_to_zero ? at.at.z >= T(0) : at.at.z <= T(1);
+    return at.at.x >= -side && at.at.x <= side && at.at.y >= -side && at.at.y <= side && before_far_end;
+}
+
+// The first of `count` ranges that ends beyond the eye depth. The index never decreases along a view ray, and
+// visibility is continuous across a blend band.
+template <class T>
+[[nodiscard]] inline LookUp<T> by_depth(SliceRange<T> const* ranges, int count, T eye_depth) noexcept {
+    SHADOWMATH_ASSERT(ranges != nullptr || count <= 0, "no ranges to choose from");
+    if (!all_finite(&eye_depth, 1)) return {};
+    for (int i = 0; i < count; ++i) {
+        SliceRange<T> const& range = ranges[i];
+        if (!(eye_depth < range.end)) continue;
+        if (!(eye_depth > range.blend_begin)) return {i, -1, T(0)};
+        int const next = i + 1 < count ? i + 1 : -1;
+        return {i, next, (eye_depth - range.blend_begin) / (range.end - range.blend_begin)};
     }
-    own.bit[0] = bit;
-    if (maps.bundle_count > 0) {
-        auto& bundle = maps.bundle[maps.bundle_count - 1];
-        T differ = T(0);
-        for (side = 0; side < 5; ++side)
-            differ = std::fmax(differ, detail::largest_of(bundle.normal[side] - own.normal[side]));
-        int place = 0;
-        while (place < 4 && bundle.bit[place] != 0) ++place;
-        if (place < 4 && differ <= T(4) * std::numeric_limits<T>::epsilon()) {
-            for (side = 0; side < 5; ++side) bundle.least[side][place] = own.least[side][0];
-            bundle.bit[place] = bit;
-            return;
+    return {};
+}
+
+// The first of `count` maps that contains the point, or none. `margin_texels` is the kernel's reach: filter radius +
+// 1.
+template <class T>
+[[nodiscard]] inline LookUp<T> by_map(ShadowMap<T> const* maps, int count, int map_size, T margin_texels,
+                                      Vec3<T> const& point) noexcept {
+    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "no maps to choose from");
+    for (int i = 0; i < count; ++i)
+        if (contains(maps[i], map_size, margin_texels, point)) return {i, -1, T(0)};
+    return {};
+}
+
+// Visibility of the two maps of a look-up, mixed; pass 1 for a map that is -1.
+template <class T>
+[[nodiscard]] constexpr T blended(LookUp<T> const& look_up, T first_visibility, T second_visibility) noexcept {
+    return first_visibility * (T(1) - look_up.blend) + second_visibility * look_up.blend;
+}
+
+// Light that is let through takes part in diffuse and specular, never in ambient; albedo tints all three (Kwon 2002,
+// section 4.4). Linear colours; `visibility` 0 to 1.
+template <class T>
+[[nodiscard]] inline Vec3<T> shade(Vec3<T> const& ambient, Vec3<T> const& diffuse, Vec3<T> const& specular,
+                                   T visibility, Vec3<T> const& albedo) noexcept {
+    return (ambient + (diffuse + specular) * visibility) * albedo;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/judge.hpp ========
+//
+// What a set of cascades is worth, measured: the footprint at points that the eye sees, each in the map that serves it.
+// For showing to a user, for tests of a renderer's own maps, and for choose.hpp.
+//
+// Points come from the renderer (a depth buffer read back, with its normals) or from receivers' bounds alone, where no
+// surface is known (samples_in). There each point gets the neutral normal, which leans as far from the eye as from the
+// light: the footprint is then perspective aliasing alone, the part that a fit can do something about.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct SurfacePoint {
+    Vec3<T> point{T(0)};   // world
+    Vec3<T> normal{T(0)};  // world, of any length
+};
+
+inline constexpr int max_samples = 256;
+
+template <class T>
+struct Samples {
+    std::array<SurfacePoint<T>, max_samples> at;
+    int count = 0;
+};
+
+// Equally far from the eye and the light in angle; toward the eye where the two are opposite.
+template <class T>
+[[nodiscard]] inline Vec3<T> neutral_normal(ViewVolume<T> const& view, Light<T> const& light,
+                                            Vec3<T> const& point) noexcept {
+    bool const flat = view.kind == ViewKind::orthographic;
+    Vec3<T> const to_eye = flat ? -view.pose.forward : safe_normalize(view.pose.position - point).direction;
+    Normalized<T> const half = safe_normalize(to_eye + toward(light, point));
+    return half.length > T(1e-3) ? half.direction : to_eye;
+}
+
+// Where a ray of the view is inside a box.
+template <class T>
+struct DepthSpan {
+    T first = T(0);  // eye depth
+    T last = T(-1);  // below first: it misses
+};
+
+// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
+template <class T>
+[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
+                                                Aabb<T> const& box) noexcept {
+    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
+    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
+    T first = T(0), last = T(1);  // of the way
+    for (int axis = 0; axis < 3; ++axis) {
+        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
+        if (std::abs(way[axis]) > T(0)) {
+            T const a = to_lo / way[axis], b = to_hi / way[axis];
+            first = std::fmax(first, std::fmin(a, b));
+            last = std::fmin(last, std::fmax(a, b));
+        } else if (to_lo > T(0) || to_hi < T(0)) {
+            return {};
         }
     }
-    maps.bundle[maps.bundle_count++] = own;
-}
-
-template <class T>
-[[nodiscard]] inline CasterMaps<T> caster_maps(ShadowMap<T> const* maps, int count) noexcept {
-    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "caster_maps needs maps");
-    CasterMaps<T> gathered;
-    for (int i = 0; i < count; ++i) add_map(gathered, maps[i]);
-    return gathered;
-}
-
-// Never misses: where any point of the world box lands between the sides of a map (w > 0) and not behind its far end,
-// the map's bit is set. Nor is it set elsewhere, but for the rule above and for boxes within 32 epsilon of the sum of
-// their coordinates' sizes. An empty box casts nowhere; one with a NaN, an infinity or a coordinate beyond 2^60 m in it
-// casts everywhere: a shadow too many is found sooner than one too few.
-template <class T>
-[[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Aabb<T> const& box) noexcept {
-    Vec3<T> const &lo = box.lo, &hi = box.hi;
-    if (!detail::all_in_reach(lo) || !detail::all_in_reach(hi)) {
-        for (int axis = 0; axis < 3; ++axis)
-            if (detail::are_crossed(lo[axis], hi[axis])) return 0;
-        return detail::every_bit(maps);
-    }
-    if (lo.x > hi.x || lo.y > hi.y || lo.z > hi.z) return 0;
-    T const sizes = std::abs(lo.x) + std::abs(hi.x) + std::abs(lo.y) + std::abs(hi.y) + std::abs(lo.z) + std::abs(hi.z);
-    Vec3<T> const grown(detail::box_slack<T> * sizes), first = lo - grown, last = hi + grown;
-    std::uint32_t mask = 0;
-    for (int b = 0; b < maps.bundle_count; ++b) {
-        auto const& bundle = maps.bundle[b];
-        auto const reach = [&](int side) {
-            Vec3<T> const& normal = bundle.normal[side];
-            return normal.x * (normal.x > T(0) ? last.x : first.x) + normal.y * (normal.y > T(0) ? last.y : first.y) +
-                   normal.z * (normal.z > T(0) ? last.z : first.z);
-        };
-        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
-    }
-    return static_cast<MapMask>(mask);
-}
-
-// As for a box, with the ball in its place; one of negative radius casts nowhere.
-template <class T>
-[[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Sphere<T> const& sphere) noexcept {
-    Vec3<T> const& centre = sphere.center;
-    if (detail::are_crossed(T(0), sphere.radius)) return 0;
-    if (!detail::all_in_reach(centre) || !detail::all_in_reach(Vec3<T>(sphere.radius))) return detail::every_bit(maps);
-    T const sizes = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + sphere.radius;
-    T const radius = sphere.radius + detail::box_slack<T> * sizes;
-    std::uint32_t mask = 0;
-    for (int b = 0; b < maps.bundle_count; ++b) {
-        auto const& bundle = maps.bundle[b];
-        auto const reach = [&](int side) {
-            Vec3<T> const& normal = bundle.normal[side];
-            return glm::dot(normal, centre) + radius * std::sqrt(glm::dot(normal, normal));
-        };
-        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
-    }
-    return static_cast<MapMask>(mask);
+    T const range = view.z_far - view.z_near;
+    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
 }
 
 namespace detail {
 
-inline constexpr int boxes_at_once = 64;
-
-// What the reach of a box along a normal must grow by, as a part of the size of its largest coordinate: of the three
-// products each may be off by the 10 epsilon of box_slack.
+// Where the ray through the middle of cell `ray`, of `across` by `up` that divide the picture, meets the view's sides.
 template <class T>
-inline constexpr T reach_slack = T(32) * std::numeric_limits<T>::epsilon();
-
-// One block of boxes. Masks of those that are empty, not finite or beyond reach are none; `odd` says that there are
-// such.
-template <class T>
-struct MaskBlock {
-    CasterMaps<T> const& maps;
-    BoxArrays<T> const& boxes;
-    MapMask* masks;
-    std::uint32_t const (&bits)[max_caster_maps][4];  // of each bundle: as wide as numbers are
-    bool& odd;
-
-    // How far box i reaches along a normal, by the end of each axis that lies farther along it.
-    struct Side {
-        Vec3<T> normal;
-        T const *x, *y, *z;
-        [[gnu::always_inline]] T operator()(int i) const noexcept {
-            return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
-        }
-    };
-    [[gnu::always_inline]] Side side_of(Vec3<T> const& normal) const noexcept {
-        return {normal, normal.x > T(0) ? boxes.hi_x : boxes.lo_x, normal.y > T(0) ? boxes.hi_y : boxes.lo_y,
-                normal.z > T(0) ? boxes.hi_z : boxes.lo_z};
-    }
-
-    [[gnu::always_inline]] inline void operator()() const noexcept {
-        constexpr int n = boxes_at_once;
-        T grown[n];
-        std::uint32_t any_odd = 0;
-        decltype(beyond_reach(T(0))) beyond = 0;
-        auto const less = [](T a, T b) { return a < b ? a : b; };
-        auto const more = [](T a, T b) { return a > b ? a : b; };
-        for (int i = 0; i < n; ++i) {
-            T const lo = less(less(boxes.lo_x[i], boxes.lo_y[i]), boxes.lo_z[i]);
-            T const hi = more(more(boxes.hi_x[i], boxes.hi_y[i]), boxes.hi_z[i]);
-            T const largest = more(hi, -lo);
-            // NOTE: an end that is not a number is in no order, so that `largest` need not know it.
-            bool const full =
-                (boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]);
-            any_odd |= full ? 0u : ~0u;
-            beyond |= beyond_reach(largest);
-            grown[i] = reach_slack<T> * largest;
-        }
-        odd = any_odd != 0 || beyond >> (8 * sizeof beyond - 1) != 0;
-        if (maps.bundle_count == 0) std::memset(masks, 0, n * sizeof *masks);
-        for (int b = 0; b < maps.bundle_count; ++b) {
-            typename CasterMaps<T>::Bundle const& bundle = maps.bundle[b];
-            // NOTE: side by side, five sides want more registers than there are.
-            std::uint32_t const(&bit)[4] = bits[b];
-            Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
-            Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
-            Side const last = side_of(bundle.normal[4]);
-            T const(&from_left)[4] = bundle.least[0], (&from_right)[4] = bundle.least[1];
-            T const(&from_bottom)[4] = bundle.least[2], (&from_top)[4] = bundle.least[3];
-            T const(&from_last)[4] = bundle.least[4];
-            std::uint32_t in_0[n], in_1[n], in_2[n], in_3[n];  // all ones, or zero
-            for (int i = 0; i < n; ++i) {
-                T const a = left(i) + grown[i], c = right(i) + grown[i];
-                in_0[i] = ((a >= from_left[0]) & (c >= from_right[0])) ? ~0u : 0u;
-                in_1[i] = ((a >= from_left[1]) & (c >= from_right[1])) ? ~0u : 0u;
-                in_2[i] = ((a >= from_left[2]) & (c >= from_right[2])) ? ~0u : 0u;
-                in_3[i] = ((a >= from_left[3]) & (c >= from_right[3])) ? ~0u : 0u;
-            }
-            for (int i = 0; i < n; ++i) {
-                T const a = bottom(i) + grown[i], c = top(i) + grown[i];
-                in_0[i] &= ((a >= from_bottom[0]) & (c >= from_top[0])) ? ~0u : 0u;
-                in_1[i] &= ((a >= from_bottom[1]) & (c >= from_top[1])) ? ~0u : 0u;
-                in_2[i] &= ((a >= from_bottom[2]) & (c >= from_top[2])) ? ~0u : 0u;
-                in_3[i] &= ((a >= from_bottom[3]) & (c >= from_top[3])) ? ~0u : 0u;
-            }
-            for (int i = 0; i < n; ++i) {
-                T const a = last(i) + grown[i];
-                in_0[i] &= a >= from_last[0] ? ~0u : 0u;
-                in_1[i] &= a >= from_last[1] ? ~0u : 0u;
-                in_2[i] &= a >= from_last[2] ? ~0u : 0u;
-                in_3[i] &= a >= from_last[3] ? ~0u : 0u;
-            }
-            auto const bits_of = [&](int i) {
-                return (in_0[i] & bit[0]) | (in_1[i] & bit[1]) | (in_2[i] & bit[2]) | (in_3[i] & bit[3]);
-            };
-            if (b == 0)
-                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(bits_of(i));
-            else
-                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(masks[i] | bits_of(i));
-        }
-    }
-};
+[[nodiscard]] inline Vec2<T> side_of_ray(ViewVolume<T> const& view, int ray, int across, int up) noexcept {
+    T const x = (T(ray % across) + T(0.5)) / T(across), y = (T(ray / across) + T(0.5)) / T(up);
+    return {view.left + (view.right - view.left) * x, view.bottom + (view.top - view.bottom) * y};
+}
 
 }  // namespace detail
 
-// masks[i] = caster_mask(maps, box i), for `count` boxes in one pass over memory for all maps; the six arrays and
-// `masks` hold `count` values each, do not overlap, and need no alignment. Where a box touches a plane to the last
-// bits, it may count in one and not in the other; both count every caster.
+// Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
+// depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
+// without an end.
 template <class T>
-inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, int count, MapMask* masks) noexcept {
-    SHADOWMATH_ASSERT(
-        count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
-                       boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
-        "caster_masks needs six arrays of boxes and one of masks");
-    std::uint32_t bits[max_caster_maps][4];
-    for (int b = 0; b < maps.bundle_count; ++b)
-        for (int place = 0; place < 4; ++place) bits[b][place] = maps.bundle[b].bit[place];
-    constexpr int n = detail::boxes_at_once;
-    for (int begin = 0; begin < count; begin += n) {
-        BoxArrays<T> const block = boxes_from(boxes, begin);
-        int const length = count - begin < n ? count - begin : n;
-        bool odd = false;
-        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, bits, odd});
-        if (length == n && !odd) continue;
-        for (int i = 0; i < length; ++i) {
-            Aabb<T> const box = box_at(block, i);
-            if (length < n || !detail::is_ordinary(box)) masks[begin + i] = caster_mask(maps, box);
+[[nodiscard]] inline Samples<T> samples_in(ViewVolume<T> const& view, Light<T> const& light,
+                                           Aabb<T> const& receivers) noexcept {
+    Samples<T> samples;
+    if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light) || !all_finite(receivers) ||
+        is_empty(receivers))
+        return samples;
+    constexpr int rays = 8, on_each = 4;
+    for (int ray = 0; ray < rays * rays; ++ray) {
+        Vec2<T> const side = detail::side_of_ray(view, ray, rays, rays);
+        DepthSpan<T> const inside = depths_in_box(view, side.x, side.y, receivers);
+        if (!(inside.first <= inside.last)) continue;
+        T const begin = inside.first, end = inside.last;
+        T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
+        int const count = ratio > T(1.001) ? on_each : 1;
+        for (int i = 0; i < count; ++i) {
+            T const depth = floor * std::pow(ratio, (T(i) + T(0.5)) / T(count));
+            Vec3<T> const point = point_at(view, side.x, side.y, depth);
+            if (!all_finite(point)) continue;
+            samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
         }
     }
+    return samples;
 }
 
-// The least range that holds every map of the mask: the split range of GPU Gems 3, to draw last - first + 1 instances
-// of an object. Where the mask has a hole, the range draws into it for nothing.
-[[nodiscard]] constexpr MapRange map_range(MapMask mask) noexcept {
-    MapRange range;
-    for (int i = 0; i < max_caster_maps; ++i) {
-        if ((mask >> i & 1) == 0) continue;
-        if (range.first > range.last) range.first = i;
-        range.last = i;
+template <class T>
+struct Worth {
+    T worst = T(0);    // eye pixels per texel along the longer axis of the footprint, at the worst point
+    T mean = T(0);     // of all points
+    T price = T(0);    // the mean of price_of
+    int count = 0;     // points
+    int unserved = 0;  // of them: no map holds them; they count as footprint_limit
+};
+
+template <class T>
+struct Judgement {
+    Worth<T> all;
+    std::array<Worth<T>, max_splits> map;  // of each cascade, over the points at its depths
+};
+
+// Each point is judged in the first map whose range holds its depth. Points that the eye does not see (w <= 0) and
+// those behind the last range are left out. `eye_pixels`: the size of the picture.
+template <class T>
+[[nodiscard]] inline Judgement<T> judge(Cascades<T> const& cascades, int map_size, ViewVolume<T> const& view,
+                                        Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
+                                        int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "judge needs its samples");
+    Judgement<T> judgement;
+    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
+    auto const take = [](Worth<T>& worth, T major) {
+        worth.worst = std::fmax(worth.worst, major);
+        worth.mean += major;  // sums until the end
+        worth.price += price_of(major);
+        worth.unserved += major >= footprint_limit<T> ? 1 : 0;
+        ++worth.count;
+    };
+    for (int i = 0; i < sample_count; ++i) {
+        SurfacePoint<T> const& sample = samples[i];
+        if (!all_finite(sample.point)) continue;
+        T const depth = eye_depth(view, sample.point);
+        for (int c = 0; c < cascades.count; ++c) {
+            Cascade<T> const& cascade = cascades.at[c];
+            if (!(depth <= cascade.range.end)) continue;
+            T major = footprint_limit<T>;
+            // Half a texel for the rounding of points on the map's very side.
+            if (contains(cascade.map, map_size, T(-0.5), sample.point)) {
+                Footprint<T> const measured =
+                    footprint(eye, eye_pixels, cascade.map.clip_from_world, T(map_size), sample.point, sample.normal);
+                major = measured.major;
+            }
+            if (!(major > T(0))) break;
+            take(judgement.all, major);
+            take(judgement.map[static_cast<std::size_t>(c)], major);
+            break;
+        }
     }
-    return range;
+    auto const close = [](Worth<T>& worth) {
+        T const count = T(worth.count > 0 ? worth.count : 1);
+        worth.mean /= count;
+        worth.price /= count;
+    };
+    close(judgement.all);
+    for (Worth<T>& worth : judgement.map) close(worth);
+    return judgement;
+}
+
+// Of one map over all the points, whatever their depth.
+template <class T>
+[[nodiscard]] inline Worth<T> worth_of(ShadowMap<T> const& map, int map_size, ViewVolume<T> const& view,
+                                       Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
+                                       int sample_count) noexcept {
+    Cascades<T> alone;
+    alone.count = 1;
+    alone.at[0].map = map;
+    alone.at[0].range.end = std::numeric_limits<T>::max();
+    return judge(alone, map_size, view, eye_pixels, samples, sample_count).all;
+}
+
+// Whether a map drawn for an earlier view will do for this one: no point has lost its map, and the worst texel is at
+// most `factor` times as large as when the map was drawn, or at most `factor` pixels. As long as light and casters are
+// what they were its shadows are right in any case; this is about their edges alone.
+template <class T>
+[[nodiscard]] inline bool still_good(Worth<T> const& drawn, Worth<T> const& now, T factor = T(1.5)) noexcept {
+    T const before = drawn.worst > T(1) ? drawn.worst : T(1);
+    return now.unserved <= drawn.unserved && now.worst <= before * factor;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/vdsm.hpp ========
+//
+// View-dependent shadow map: slide everything along the light onto a shadow plane, look at that from the EYE, keep the
+// light's depth. On the plane, a texel covers the same number of eye pixels from the nearest point to the farthest.
+//
+//   light \   \   \                 One linear map: Q ~ (I - l pi^T / (pi.l)) P. With E the eye's matrix,
+//          P   \   \       eye
+//           \   \   \     /           M = [ E_x Pi ; E_y Pi ; depth ; E_w Pi ]
+//     _______Q___Q___Q___/____ pi
+//                                   is an ordinary 4x4, for suns and spots alike.
+//
+// Use it where most receivers lie near one plane: ground, water, a floor. Not for towers: a receiver well above the
+// plane may be seen from the plane point BEHIND the eye that its light ray meets (w <= 0). Such receivers are not the
+// map's; test receiver_valid, and light them by a second map.
+//
+// Source: T. Kwon, "View-dependent Shadow Maps Using Projective Geometry" (in Korean), Seoul National University, 2002;
+// the relation to Chong and Gortler 2004: same x, y and w, another depth row. Departures: spots as well as suns; w is
+// NOT always positive; the depth row is scaled, since as printed everything projected nearer than one unit is lost to
+// the far plane, and measured from the plane, so that it spans the heights of a scene instead of its extent.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// The points p with normal . p + offset = 0. Neither length nor sign of the normal matters.
+template <class T>
+struct ShadowPlane {
+    Vec3<T> normal{T(0), T(1), T(0)};
+    T offset = T(0);
+};
+
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> plane_through(Vec3<T> const& point, Vec3<T> const& normal) noexcept {
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    return {unit, -glm::dot(unit, point)};
+}
+
+// The thesis' choice: parallel to the ground, at the middle height of what is to receive shadows. An empty box gives
+// the ground through the origin.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> mean_height_plane(Aabb<T> const& receivers, Vec3<T> const& ground_normal) noexcept {
+    Vec3<T> const middle = is_empty(receivers) ? Vec3<T>(T(0)) : receivers.lo / T(2) + receivers.hi / T(2);
+    return plane_through(middle, ground_normal);
+}
+
+// Moves points along the rays of the light onto the plane: Pi = I - l pi^T / (pi . l), so that Pi Pi = Pi and Pi l = 0.
+// Signs and lengths of the plane and of `homogeneous_light` do not matter, and w stays 1 for a sun; for a spot it is
+// the point's height below the light in heights of the light. The identity where the plane contains the light, or an
+// input is not finite.
+template <class T>
+[[nodiscard]] inline Mat4<T> plane_projection(ShadowPlane<T> const& plane, Vec4<T> const& homogeneous_light) noexcept {
+    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(homogeneous_light))
+        return Mat4<T>(T(1));
+    // Over its largest coordinate, each is as good as before and no product over- or underflows.
+    auto const scaled = [](Vec4<T> const& v) {
+        T const largest = glm::max(glm::max(std::abs(v.x), std::abs(v.y)), glm::max(std::abs(v.z), std::abs(v.w)));
+        return largest > T(0) ? Vec4<T>(v.x / largest, v.y / largest, v.z / largest, v.w / largest) : v;
+    };
+    Vec4<T> const pi = scaled(Vec4<T>(plane.normal, plane.offset)), light = scaled(homogeneous_light);
+    T const height = glm::dot(pi, light);
+    if (!(std::abs(height) > T(1e-30))) return Mat4<T>(T(1));
+    return Mat4<T>(T(1)) - glm::outerProduct(light, pi / height);
+}
+
+template <class T>
+struct VdsmOptions {
+    int map_size = 1024;
+    T margin_texels = T(2);  // of the map kept free on each side, for the filter
+    bool crop = true;        // zoom in on what the receivers need; false: the whole screen, as it is
+    T w_min = T(0);          // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
+    T reach = T(2);          // how far beyond the screen the map goes, in half screens: receivers off the plane may
+                             // project there; those beyond are not the map's. >= 1
+    T least_sine = T(0.05);  // of the angle between the plane and a sun, or an orthographic view: below it,
+                             // invalid_plane. >= 1e-3
+};
+
+// One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half
+// screens out: near the eye's own depth a single such point would take the whole map. Everything on the plane and in
+// view is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
+//
+// invalid_plane, not visible: the plane has no normal, contains the light (least_sine; spots: 1e-4 of z_far), or
+// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters
+// in the last 1/1024 of the way to a spot are cut.
+template <class T>
+[[nodiscard]] inline ShadowMap<T> view_dependent_map(ViewVolume<T> const& view, Light<T> const& light,
+                                                     ShadowPlane<T> const& plane, Aabb<T> const& casters,
+                                                     Aabb<T> const& receivers, VdsmOptions<T> const& options,
+                                                     ClipSpace clip) noexcept {
+    ShadowMap<T> map;
+    map.clip = clip;
+    Door<T> const in = door(view, light, casters, receivers, options.map_size, options.margin_texels);
+    map.faults = in.faults;
+    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(&options.w_min, 1) ||
+        !all_finite(&options.reach, 1) || !all_finite(&options.least_sine, 1)) {
+        map.faults |= Fault::not_finite;
+        return map;
+    }
+    Normalized<T> const normal = safe_normalize(plane.normal);
+    if (!normal.ok) map.faults |= Fault::invalid_plane;
+    if (!normal.ok || in.stop) return map;
+    T const least_sine = glm::max(options.least_sine, T(1e-3));
+    if (!(options.reach >= T(1)) || options.w_min < T(0) || least_sine != options.least_sine)
+        map.faults |= Fault::clamped_option;
+
+    // All relative to the eye: there the plane is known to the last bit of the eye's height.
+    ViewVolume<T> eye = in.view;
+    Vec3<T> const origin = eye.pose.position;
+    eye.pose.position = Vec3<T>(T(0));
+    Light<T> const& lamp = in.light;
+    bool const sun = lamp.kind == LightKind::directional;
+    Vec4<T> const source = sun ? Vec4<T>(lamp.direction, T(0)) : Vec4<T>(origin - lamp.position, T(-1));
+    Vec4<T> const pi(normal.direction, glm::dot(normal.direction, origin) + plane.offset / normal.length);
+    if (!(std::abs(pi.w) <= T(1e12))) {
+        map.faults |= Fault::invalid_plane;
+        return map;
+    }
+    T const height_of_light = glm::dot(pi, source);
+    T const least_height = T(1e-4) * eye.z_far;
+    // An orthographic eye lies at infinity, against its viewing direction.
+    bool const flat = eye.kind == ViewKind::orthographic;
+    T const height_of_eye = flat ? glm::dot(normal.direction, eye.pose.forward) : pi.w;
+    if (!(std::abs(height_of_eye) >= (flat ? least_sine : least_height)) ||
+        !(std::abs(height_of_light) >= (sun ? least_sine : least_height))) {
+        map.faults |= Fault::invalid_plane;
+        return map;
+    }
+    // Signed distance from the plane, in light vectors: 0 on it, -1 at a spot. A row of Pi is then E - (E . l) along.
+    Vec4<T> const along = pi / height_of_light;
+    Mat4<T> const screen = clip_from_world(eye, ClipSpace{});
+    auto const slid = [&](int r) { return row(screen, r) - along * glm::dot(row(screen, r), source); };
+    MapRows<T> rows;
+    rows.x = slid(0);
+    rows.y = slid(1);
+    rows.w = slid(3);
+    rows.along = along;
+    rows.source = source;
+    rows.parallel = sun;
+    constexpr T nearest = T(1) / T(1024);  // the nearest caster to a spot, as a part of the spot's height
+    if (!sun) rows.along_floor = nearest - T(1);
+    rows.w_min = flat ? nearest : eye.z_near;
+    if (!(rows.w_min > T(0))) {
+        rows.w_min = eye.z_far / T(1 << 20);
+        map.faults |= Fault::near_clamped;
+    }
+    if (options.w_min > T(0)) rows.w_min = glm::max(options.w_min, rows.w_min / T(1024));
+    rows.least_width = T(2) / T(options.map_size);
+    rows.crop = options.crop;
+
+    ConvexBody<T> body = visible_body(in.view, receivers);
+    Vec4<T> const one(T(0), T(0), T(0), T(1));
+    if (!sun) {
+        body = clipped(body, along - one * rows.along_floor);
+        // The pyramid around the cone: beyond it nothing is lit.
+        LightBasis<T> const axes = light_basis(lamp.direction);
+        T const slope = std::tan(lamp.half_angle_radians);
+        for (Vec3<T> const& side : {axes.x, -axes.x, axes.y, -axes.y}) {
+            Vec3<T> const inward = safe_normalize(axes.depth * slope - side).direction;
+            body = clipped(body, Vec4<T>(inward, glm::dot(inward, Vec3<T>(source))));
+        }
+        body = clipped(body, Vec4<T>(-axes.depth, lamp.range - glm::dot(axes.depth, Vec3<T>(source))));
+    }
+    body = clipped(body, rows.w - one * rows.w_min);
+    // What lies beyond the reach takes no part: neither in the region nor in the scale of depth.
+    Vec4<T> const edge = rows.w * (options.crop ? glm::max(options.reach, T(1)) : T(1));
+    for (Vec4<T> const& side : {edge - rows.x, edge + rows.x, edge - rows.y, edge + rows.y}) body = clipped(body, side);
+    Faults const before = map.faults;
+    map = map_from_rows(rows, origin, body, casters, options.map_size, options.margin_texels, clip);
+    map.faults |= before;
+    return map;
+}
+
+// Whether the map can answer for a receiver at all; where it can, the usual test of its sides still applies.
+template <class T>
+[[nodiscard]] inline bool receiver_valid(ShadowMap<T> const& map, Vec3<T> const& point) noexcept {
+    return map.visible && glm::dot(row(map.clip_from_world, 3), Vec4<T>(point, T(1))) > map.w_min;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/plane_choice.hpp ========
+//
+// Which plane a view-dependent map should be drawn on, from the surfaces that the eye sees. Judged by one number: how
+// far the map's texels are from the picture's pixels, as the mean square of the logarithms of the footprint's axes. 0
+// is one texel a pixel everywhere, 0.48 twice too long along one axis.
+//
+//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points; and
+//                    with each point's weight that of its pixels, so that the far does not outvote the near
+//   least squares    through the points as they lie: slopes, walls
+//   least distortion the best of these, moved along its normal until the number is least
+//
+// A plane that changes makes shadows jump: the one of the last frame is kept until another is better by a tenth.
+//
+// Source: Kwon 2002 names the problem and the mean height; the rest is derived here.
+
+namespace shadowmath {
+inline namespace v0 {
+
+template <class T>
+struct PlaneChoice {
+    ShadowPlane<T> plane;
+    T distortion = T(0);   // of this plane
+    bool kept = false;     // it is the previous one
+    bool visible = false;  // false: no samples, or no plane that serves any of them
+};
+
+namespace detail {
+
+// The direction in which a symmetric matrix (xx, yy, zz; xy, yz, zx) is least; zero where two are least alike.
+template <class T>
+[[nodiscard]] inline Vec3<T> least_eigenvector(Vec3<T> const& square, Vec3<T> const& mixed) noexcept {
+    // By the trigonometric formula for the roots, about the mean of the diagonal.
+    T const mean = (square.x + square.y + square.z) / T(3);
+    Vec3<T> const off = square - mean;
+    T const spread = std::sqrt((glm::dot(off, off) + T(2) * glm::dot(mixed, mixed)) / T(6));
+    if (!(spread > T(0))) return Vec3<T>(T(0));
+    Vec3<T> const d = off / spread, m = mixed / spread;
+    T const half_det =
+        (d.x * (d.y * d.z - m.y * m.y) - m.x * (m.x * d.z - m.y * m.z) + m.z * (m.x * m.y - d.y * m.z)) / T(2);
+    constexpr T third_of_a_turn = T(2.09439510239319549230842892218633526L);
+    T const root = T(2) * std::cos(std::acos(glm::clamp(half_det, T(-1), T(1))) / T(3) + third_of_a_turn);
+    // The rows of what is left over are all across the eigenvector.
+    Vec3<T> const x(d.x - root, m.x, m.z), y(m.x, d.y - root, m.y), z(m.z, m.y, d.z - root);
+    Vec3<T> best(T(0));
+    for (Vec3<T> const& across : {glm::cross(x, y), glm::cross(y, z), glm::cross(z, x)})
+        if (glm::dot(across, across) > glm::dot(best, best)) best = across;
+    return glm::dot(best, best) > T(1e-8) ? safe_normalize(best).direction : Vec3<T>(T(0));
+}
+
+}  // namespace detail
+
+// Least sum of squared distances, each over the square of the point's eye depth, so that the far does not outvote the
+// near. Its normal is on the side of the eye. A normal of 0: fewer than three points, or all on one line.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> least_squares_plane(ViewVolume<T> const& view, SurfacePoint<T> const* samples,
+                                                        int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const eye = view.pose.position;
+    auto const weighted_sum = [&](auto const& add) {
+        T total = T(0);
+        for (int i = 0; i < sample_count; ++i) {
+            Vec3<T> const p = samples[i].point - eye;
+            T const depth = glm::dot(p, view.pose.forward);
+            if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
+            T const weight = T(1) / std::fmax(depth * depth, T(1e-12));
+            total += weight;
+            add(p, weight);
+        }
+        return total;
+    };
+    Vec3<T> middle(T(0)), square(T(0)), mixed(T(0));
+    T const total = weighted_sum([&](Vec3<T> const& p, T weight) { middle += p * weight; });
+    if (!(total > T(0))) return {Vec3<T>(T(0)), T(0)};
+    middle /= total;
+    weighted_sum([&](Vec3<T> const& p, T weight) {
+        Vec3<T> const q = p - middle;
+        square += q * q * weight;
+        mixed += Vec3<T>(q.x * q.y, q.y * q.z, q.z * q.x) * weight;
+    });
+    Vec3<T> normal = detail::least_eigenvector(square / total, mixed / total);
+    if (glm::dot(normal, middle) > T(0)) normal = -normal;
+    return {normal, -glm::dot(normal, middle + eye)};
+}
+
+// Across `normal`, with half of the points above it and half below; of more than max_samples points every so many-th is
+// looked at. A normal of 0 comes back as it is, and so does one without points, through the origin.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> median_plane(Vec3<T> const& normal, SurfacePoint<T> const* samples,
+                                                 int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    std::array<T, max_samples> height;
+    std::size_t count = 0;
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        if (!all_finite(samples[i].point)) continue;
+        T const h = glm::dot(unit, samples[i].point);
+        std::size_t at = count++;
+        for (; at > 0 && height[at - 1] > h; --at) height[at] = height[at - 1];
+        height[at] = h;
+    }
+    return {unit, count > 0 ? -height[count / 2] : T(0)};
+}
+
+// Across `normal`, with half of the weight on either side: one over the square of a point's eye depth, as for
+// least_squares_plane. Points behind the eye have none. Otherwise as median_plane.
+template <class T>
+[[nodiscard]] inline ShadowPlane<T> weighted_median_plane(ViewVolume<T> const& view, Vec3<T> const& normal,
+                                                          SurfacePoint<T> const* samples, int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    Vec3<T> const unit = safe_normalize(normal).direction;
+    std::array<T, max_samples> height, weight;
+    std::size_t count = 0;
+    T total = T(0);
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        T const depth = eye_depth(view, samples[i].point);
+        if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
+        T const h = glm::dot(unit, samples[i].point), w = T(1) / std::fmax(depth * depth, T(1e-12));
+        std::size_t at = count++;
+        for (; at > 0 && height[at - 1] > h; --at) {
+            height[at] = height[at - 1];
+            weight[at] = weight[at - 1];
+        }
+        height[at] = h;
+        weight[at] = w;
+        total += w;
+    }
+    T below = T(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        below += weight[i];
+        if (below * T(2) >= total) return {unit, -height[i]};
+    }
+    return {unit, T(0)};
+}
+
+// Mean square of ln(major) and ln(minor) over the samples, of a map of as many texels as the picture has pixels, before
+// any crop. Points that the plane cannot serve count as footprint_limit. The largest number where nothing is served, or
+// the plane is none.
+template <class T>
+[[nodiscard]] inline T plane_distortion(ShadowPlane<T> const& plane, ViewVolume<T> const& view, Light<T> const& light,
+                                        SurfacePoint<T> const* samples, int sample_count) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    T const worst = std::numeric_limits<T>::max();
+    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
+    Mat4<T> const slid = plane_projection(plane, homogeneous(light));
+    if (slid == Mat4<T>(T(1)) || !all_finite(slid)) return worst;
+    Mat4<T> const map = eye * slid;
+    T sum = T(0);
+    int count = 0, served = 0;
+    for (int i = 0; i < sample_count; ++i) {
+        Footprint<T> const f = footprint(eye, Vec2<T>(T(1000)), map, T(1000), samples[i].point, samples[i].normal);
+        if (!(f.major > T(0))) continue;
+        T const along = std::log(f.major), across = std::log(std::fmax(f.minor, T(1) / footprint_limit<T>));
+        sum += along * along + across * across;
+        served += f.major < footprint_limit<T> ? 1 : 0;
+        ++count;
+    }
+    return served > 0 ? sum / T(count) : worst;
+}
+
+// The plane of least distortion among: across `ground_normal` at the two median heights, the least squares, and the
+// best one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no
+// other has less than 1 - `hysteresis` times its distortion.
+template <class T>
+[[nodiscard]] inline PlaneChoice<T> choose_plane(ViewVolume<T> const& view, Light<T> const& light,
+                                                 SurfacePoint<T> const* samples, int sample_count,
+                                                 Vec3<T> const& ground_normal, ShadowPlane<T> const* previous = nullptr,
+                                                 T hysteresis = T(0.1)) noexcept {
+    PlaneChoice<T> best;
+    best.distortion = std::numeric_limits<T>::max();
+    if (unusable(light) || faults_of(view).any()) return best;
+    auto const consider = [&](ShadowPlane<T> const& plane) {
+        T const distortion = plane_distortion(plane, view, light, samples, sample_count);
+        if (!(distortion < best.distortion)) return;
+        best = {plane, distortion, false, true};
+    };
+    consider(median_plane(ground_normal, samples, sample_count));
+    consider(weighted_median_plane(view, ground_normal, samples, sample_count));
+    consider(least_squares_plane(view, samples, sample_count));
+    if (best.visible) {
+        Vec3<T> const normal = best.plane.normal;
+        T lo = std::numeric_limits<T>::max(), hi = std::numeric_limits<T>::lowest();
+        for (int i = 0; i < sample_count; ++i) {
+            if (!all_finite(samples[i].point)) continue;
+            lo = std::fmin(lo, glm::dot(normal, samples[i].point));
+            hi = std::fmax(hi, glm::dot(normal, samples[i].point));
+        }
+        for (int round = 0; round < 3 && lo < hi; ++round) {
+            constexpr int steps = 8;
+            T const step = (hi - lo) / T(steps);
+            for (int i = 0; i <= steps; ++i) consider({normal, -(lo + step * T(i))});
+            T const height = -best.plane.offset;
+            lo = height - step;
+            hi = height + step;
+        }
+    }
+    if (previous == nullptr || !all_finite(previous->normal) || !all_finite(&previous->offset, 1)) return best;
+    T const kept = plane_distortion(*previous, view, light, samples, sample_count);
+    T const share = all_finite(&hysteresis, 1) ? glm::clamp(T(1) - hysteresis, T(0), T(1)) : T(1);
+    if (kept < std::numeric_limits<T>::max() && !(best.visible && best.distortion < kept * share))
+        best = {*previous, kept, true, true};
+    return best;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/plane_set.hpp ========
+//
+// Several shadow planes for one view: floor and wall, street and roofs. Each becomes a view-dependent map of its own
+// (view_dependent_map), in this order; behind them stands a map that serves what none of them does, cascades or one
+// uniform map. by_footprint chooses between them point by point.
+//
+// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of
+// the samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
+// serves well is then taken out, and the next one is chosen for the rest, as long as that is worth a map.
+//
+// Source: the thesis (Kwon 2002) names several planes as future work; Chong and Gortler 2004 draw floor and wall by two
+// maps. The choice is derived here. For one plane of least distortion over all that is seen see plane_choice.hpp.
+
+namespace shadowmath {
+inline namespace v0 {
+
+inline constexpr int max_planes = 4;
+
+template <class T>
+struct PlaneSet {
+    std::array<ShadowPlane<T>, max_planes> at;
+    std::array<T, max_planes> share{};  // of the samples that each serves well and none before it does
+    int count = 0;                      // 0: no plane is worth a map; use cascades
+};
+
+template <class T>
+struct PlaneSetOptions {
+    int most = 2;             // planes, 1 to max_planes
+    T good_pixels = T(2);     // a texel's longer axis up to which a sample counts as well served, of a map with as many
+                              // texels as the picture has pixels; > 1
+    T least_share = T(0.15);  // of the samples that a plane must serve to be worth a map, (0, 1]
+    T hysteresis = T(0.1);    // planes of the last frame stay until another serves so much more
+};
+
+namespace detail {
+
+// How many of the samples a map on this plane serves well; `left`, if not null, gets those that it does not.
+template <class T>
+[[nodiscard]] inline int well_served(ShadowPlane<T> const& plane, Mat4<T> const& eye, Light<T> const& light,
+                                     Samples<T> const& samples, T good_pixels, Samples<T>* left = nullptr) noexcept {
+    Mat4<T> const slid = plane_projection(plane, homogeneous(light));
+    bool const usable = slid != Mat4<T>(T(1)) && all_finite(slid);
+    Mat4<T> const map = eye * slid;
+    int served = 0;
+    for (int i = 0; i < samples.count; ++i) {
+        SurfacePoint<T> const& sample = samples.at[static_cast<std::size_t>(i)];
+        T const major =
+            usable ? footprint(eye, Vec2<T>(T(1000)), map, T(1000), sample.point, sample.normal).major : T(0);
+        if (major > T(0) && major <= good_pixels)
+            ++served;
+        else if (left != nullptr)
+            left->at[static_cast<std::size_t>(left->count++)] = sample;
+    }
+    return served;
+}
+
+}  // namespace detail
+
+// Each plane serves more of what the ones before it leave over than any sample's tangent plane does, or is one of the
+// last frame's within the hysteresis. Samples that nobody sees or that the light does not reach take no part; of more
+// than max_samples every so-many-th is looked at. After at most most * (max_samples + max_planes) looks at all samples;
+// for now and then, not for every frame of a small budget.
+template <class T>
+[[nodiscard]] inline PlaneSet<T> choose_planes(ViewVolume<T> const& view, Light<T> const& light,
+                                               SurfacePoint<T> const* samples, int sample_count,
+                                               PlaneSetOptions<T> const& options = {},
+                                               PlaneSet<T> const* previous = nullptr) noexcept {
+    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
+    PlaneSet<T> planes;
+    bool const sound = all_finite(&options.good_pixels, 1) && all_finite(&options.least_share, 1) &&
+                       all_finite(&options.hysteresis, 1);
+    if (!sound || unusable(light) || faults_of(view).any() || sample_count <= 0) return planes;
+    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
+    Samples<T> rest;
+    int const stride = (sample_count + max_samples - 1) / max_samples;
+    for (int i = 0; i < sample_count; i += stride) {
+        SurfacePoint<T> const& sample = samples[i];
+        bool const seen = all_finite(sample.normal) && projected(eye, sample.point).in_front;
+        if (seen && !faces_away(light, sample.point, sample.normal))
+            rest.at[static_cast<std::size_t>(rest.count++)] = sample;
+    }
+    T const all = T(rest.count);
+    int const most = options.most < max_planes ? options.most : max_planes;
+    // A plane of the last frame that is a little behind stays; of two such the first.
+    T const kept_for = T(1) + glm::clamp(options.hysteresis, T(0), T(1));
+    while (planes.count < most && rest.count > 0) {
+        ShadowPlane<T> best{Vec3<T>(T(0)), T(0)};
+        int most_served = 0;
+        for (int i = 0; i < rest.count; ++i) {
+            SurfacePoint<T> const& sample = rest.at[static_cast<std::size_t>(i)];
+            ShadowPlane<T> const tangent = plane_through(sample.point, sample.normal);
+            int const served = detail::well_served(tangent, eye, light, rest, options.good_pixels);
+            if (served <= most_served) continue;
+            most_served = served;
+            best = tangent;
+        }
+        for (int i = 0; previous != nullptr && i < previous->count && i < max_planes; ++i) {
+            ShadowPlane<T> const& last = previous->at[static_cast<std::size_t>(i)];
+            int const served = detail::well_served(last, eye, light, rest, options.good_pixels);
+            if (served == 0 || T(most_served) > T(served) * kept_for) continue;
+            most_served = served;
+            best = last;
+            break;
+        }
+        if (most_served == 0 || T(most_served) < options.least_share * all) break;
+        Samples<T> left;
+        std::size_t const place = static_cast<std::size_t>(planes.count++);
+        planes.at[place] = best;
+        planes.share[place] = T(detail::well_served(best, eye, light, rest, options.good_pixels, &left)) / all;
+        rest = left;
+    }
+    return planes;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/points.hpp ========
+//
+// Points into a map, many at once. Every technique ends as one matrix, so this is the vertex transform of all of them,
+// the view-dependent map's included: what the thesis does in two products and a division a vertex is one product.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// clip[i] = matrix * (points[i], 1), for `count` points; `clip` holds as many and does not overlap them. Columns are
+// added from the first to the last, so the sum may differ from glm's in its last bits. Nothing is divided.
+template <class T>
+inline void clip_points(Mat4<T> const& matrix, Vec3<T> const* points, int count, Vec4<T>* clip) noexcept {
+    SHADOWMATH_ASSERT(count <= 0 || (points != nullptr && clip != nullptr), "clip_points needs two arrays");
+    using Lanes = detail::Lanes<T>;
+    static_assert(sizeof(Lanes) == sizeof(Vec4<T>), "a point in a register");
+    Lanes column[4];
+    std::memcpy(column, &matrix, sizeof column);
+    for (int i = 0; i < count; ++i) {
+        Vec3<T> const& p = points[i];
+        Lanes const at = column[0] * detail::all_four(p.x) + column[1] * detail::all_four(p.y) +
+                         column[2] * detail::all_four(p.z) + column[3];
+        std::memcpy(clip + i, &at, sizeof at);
+    }
 }
 
 }  // namespace v0
@@ -6460,1067 +6967,6 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
-// ======== shadowmath/cascades.hpp ========
-//
-// The one call: a view, a light and two boxes go in, one matrix for each cascade comes out.
-//
-//   view ── splits ── slices ─┬─ fit ── depth range ── matrix
-//   light ── basis ───────────┘
-//
-//   stable      bounding sphere on a texel grid: nothing shimmers when the camera moves or turns
-//   tight       light-space box: up to twice the texels, and shadow edges crawl under motion
-//   rectangle   the smallest rectangle at any angle: a quarter fewer metres than tight
-//   focus       the smallest around what can be seen in shadow: receivers in view that casters are above
-//   warped      a perspective warp of each slice (warp.hpp): texels small near the eye within every map
-//
-// Use `stable` unless the camera never moves or a temporal filter hides the crawl; or for the nearest maps alone, where
-// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step
-// is a header of its own, so a renderer that needs another order calls them itself.
-//
-// Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
-// inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable
-// fit is the minimal sphere, and its grid has integer origins.
-
-namespace shadowmath {
-inline namespace v0 {
-
-enum class CascadeFit : std::uint8_t { stable, tight, rectangle, focus, warped };
-
-template <class T>
-struct CascadeOptions {
-    int count = 4;        // maps, 1 to max_splits
-    int map_size = 2048;  // texels along one side of each
-    CascadeFit fit = CascadeFit::stable;
-    int steady_maps = 0;       // so many of the nearest maps are stable, whatever `fit` says
-    T warp_strength = T(1);    // of CascadeFit::warped: 1 the least aliasing along the view, 0 none; see warp_less
-    T lambda = T(0.5);         // of the practical splits: 1 logarithmic, 0 uniform
-    T first_split_end = T(0);  // metres of eye depth at which the first split ends; 0: wherever lambda puts it
-    T shadow_distance = T(0);  // metres of eye depth up to which shadows are wanted; 0: the view's far distance
-    T blend = T(0.1);          // fraction of each slice that fades into the next; 0: hard seams
-    int filter_radius = 1;     // half width of the PCF kernel, texels: 0, 1 (3x3), 2 (5x5), ...
-    bool pancake = false;      // true: near plane at the slice, and the renderer turns depth clamp ON
-    ClipSpace clip = gl_clip;  // the convention of the pass that draws the maps
-    std::array<T, max_splits> warp_less{};  // the share of warp_strength that each map goes without, [0, 1]
-};
-
-template <class T>
-struct Cascade {
-    ShadowMap<T> map;
-    SliceRange<T> range;    // metres of eye depth that it serves
-    T texel_metres = T(0);  // across the light; 0 of a spot or a warped map, whose texels grow with distance
-    T depth_metres = T(0);  // along the light, from depth 0 to depth 1; 0 of those
-};
-
-template <class T>
-struct Cascades {
-    Cascade<T> at[max_splits];
-    int count = 0;  // 0: nothing to draw, everything lit
-    Faults faults;  // of the inputs, and of every map
-
-    [[nodiscard]] Cascade<T> const* begin() const noexcept { return at; }
-    [[nodiscard]] Cascade<T> const* end() const noexcept { return at + count; }
-};
-
-namespace detail {
-
-// The view with what can be mended mended: axes orthonormal, far at the shadow distance.
-template <class T>
-[[nodiscard]] inline ViewVolume<T> shadowed_part(ViewVolume<T> const& view, T const& shadow_distance,
-                                                 Faults& faults) noexcept {
-    faults |= faults_of(view);
-    ViewVolume<T> part = view;
-    if (faults.has(Fault::not_finite) || faults.has(Fault::bad_pose)) return part;
-    part.pose = orthonormalized(view.pose);
-    bool const endless = is_positive_infinity(&view.z_far);
-    if (!all_finite(&shadow_distance, 1) || shadow_distance < T(0)) {
-        faults |= Fault::clamped_option;
-    } else if (shadow_distance > T(0) && (endless || shadow_distance < view.z_far)) {
-        part.z_far = shadow_distance;
-        if (!(part.z_near < part.z_far)) faults |= Fault::empty_range;
-        return part;
-    }
-    if (endless) {
-        // Somewhere shadows must end. A thousand metres, or ten thousand near distances where the unit is larger.
-        part.z_far = view.z_near * T(1e4) > T(1000) ? view.z_near * T(1e4) : T(1000);
-        faults |= Fault::far_clamped;
-    }
-    return part;
-}
-
-template <class T>
-[[nodiscard]] inline int kernel_radius(CascadeOptions<T> const& options, Faults& faults) noexcept {
-    int const quarter = options.map_size > 0 ? options.map_size / 4 : 0, most = quarter < 64 ? quarter : 64;
-    int const radius = options.filter_radius < 0 ? 0 : (options.filter_radius > most ? most : options.filter_radius);
-    if (radius != options.filter_radius) faults |= Fault::clamped_option;
-    return radius;
-}
-
-template <class T>
-inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
-                       DepthRange<T> const& slice_depth, T previous_texel, Aabb<T> const& casters,
-                       Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
-    Sphere<T> const sphere = bounding_sphere(part);
-    TexelGrid<T> grid = texel_grid(basis, sphere, options.map_size, margin_texels);
-    T const held = held_size(grid.texel_metres, previous_texel);
-    if (grid.visible && held != grid.texel_metres) grid = grid_window(basis, sphere.center, held, options.map_size);
-    cascade.map.faults |= grid.faults;
-    if (!grid.visible) return;
-    LightBox<T> const sides = on_grid(grid, slice_depth.lo, slice_depth.hi);
-    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
-    if (!depth.visible) return;
-    cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
-    cascade.map.visible = true;
-    cascade.texel_metres = grid.texel_metres;
-    cascade.depth_metres = depth.hi - depth.lo;
-}
-
-// `previous`: the same map in the last frame, or one that is not visible.
-template <class T>
-inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_strength, ViewVolume<T> const& part,
-                            Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
-                            Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
-    if (cascade_fit == CascadeFit::warped) {
-        WarpOptions<T> const warp{options.map_size, margin_texels, warp_strength};
-        cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
-        return;
-    }
-    LightBasis<T> const basis = light_basis(light.direction);
-    std::array<Vec3<T>, 8> const body = corners(part);
-    LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
-    DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
-    if (cascade_fit == CascadeFit::stable) {
-        fit_stable(cascade, part, basis, depth, previous.texel_metres, casters, receivers, margin_texels, options);
-        return;
-    }
-    Vec3<T> const previous_x = previous.map.visible ? Vec3<T>(row(previous.map.clip_from_world, 0)) : Vec3<T>(T(0));
-    if (cascade_fit == CascadeFit::focus) {
-        Focus<T> const focus = focus_of(part, light, casters, receivers);
-        if (!focus.visible) return;
-        sides = fit_rectangle(basis, focus.receivers, options.map_size, margin_texels, previous_x);
-        depth = focus.depth;
-        if (options.pancake) depth.lo = focus.first_receiver;
-    } else {
-        if (cascade_fit == CascadeFit::rectangle)
-            sides = fit_rectangle(basis, convex_body(body), options.map_size, margin_texels, previous_x);
-        depth = depth_range(sides, depth, casters, receivers, options.pancake);
-    }
-    if (!depth.visible) return;
-    sides.depth_lo = depth.lo;
-    sides.depth_hi = depth.hi;
-    cascade.map.clip_from_world = clip_from_world(sides, options.clip);
-    cascade.map.visible = true;
-    Vec2<T> const texel = texel_metres(sides, options.map_size);
-    cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
-    cascade.depth_metres = depth.hi - depth.lo;
-}
-
-template <class T>
-[[nodiscard]] inline T strength_of(CascadeOptions<T> const& options, int map) noexcept {
-    return options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(map)]);
-}
-
-// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is
-// mended.
-template <class T>
-[[nodiscard]] inline bool fit_warps(Cascades<T>& cascades, int first, ViewVolume<T> const& seen, Light<T> const& light,
-                                    Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
-                                    CascadeOptions<T> const& options) noexcept {
-    SliceRange<T> ranges[max_splits];
-    T strengths[max_splits];
-    ShadowMap<T>* maps[max_splits];
-    int const count = cascades.count - first;
-    bool in_range = count > 0 && light.kind == LightKind::directional;
-    for (int i = 0; i < count; ++i) {
-        Cascade<T>& cascade = cascades.at[first + i];
-        ranges[i] = cascade.range, maps[i] = &cascade.map;
-        strengths[i] = strength_of(options, first + i);
-        in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
-    }
-    if (!in_range) return false;
-    WarpInputs<T> const in{
-        seen,        safe_normalize(light.direction).direction, faults_of(light), options.map_size, margin_texels,
-        options.clip};
-    return warp_slices(in, ranges, strengths, count, casters, receivers, maps);
-}
-
-}  // namespace detail
-
-// Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its
-// slice, filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that
-// map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
-// does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
-// `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
-// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that
-// is not a quarter too much: so a slow zoom does not set all shadows crawling.
-template <class T>
-[[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
-                                              Aabb<T> const& receivers, CascadeOptions<T> const& options,
-                                              Cascades<T> const* previous = nullptr) noexcept {
-    Cascades<T> cascades;
-    Faults faults = faults_of(light);
-    ViewVolume<T> const seen = detail::shadowed_part(view, options.shadow_distance, faults);
-    if (!all_finite(casters) || !all_finite(receivers)) faults |= Fault::not_finite;
-    bool const unusable_view = faults.has(Fault::not_finite) || faults.has(Fault::bad_frustum) ||
-                               faults.has(Fault::bad_pose) || faults.has(Fault::empty_range);
-    if (unusable_view || unusable(light)) {
-        cascades.faults = faults;
-        return cascades;
-    }
-    bool const pinned = !(options.first_split_end == T(0));
-    Splits<T> const splits =
-        pinned ? pinned_splits(seen.z_near, seen.z_far, options.count, options.first_split_end, options.lambda)
-               : practical_splits(seen.z_near, seen.z_far, options.count, options.lambda);
-    // One texel more than the kernel needs: the texel that holds the point may be cut by the map's side.
-    T const margin_texels = T(detail::kernel_radius(options, faults) + 1);
-    faults |= faults_of_margin(options.map_size, margin_texels);
-    if (faults.has(Fault::map_too_small)) {
-        cascades.faults = faults;
-        return cascades;
-    }
-    T blend = options.blend;
-    if (!all_finite(&options.blend, 1) || blend < T(0) || blend > T(1)) {
-        blend = all_finite(&options.blend, 1) && blend > T(1) ? T(1) : T(0);
-        faults |= Fault::clamped_option;
-    }
-    cascades.count = splits.count;
-    cascades.faults = faults | splits.faults;
-    for (int i = 0; i < splits.count; ++i) {
-        cascades.at[i].range = slice_range(splits, i, blend);
-        cascades.at[i].map.clip = options.clip;
-    }
-    if (is_empty(casters) || is_empty(receivers)) return cascades;
-    int alone = splits.count;  // so many of the first are made one by one
-    if (options.fit == CascadeFit::warped) {
-        int const steady = options.steady_maps < 0 ? 0 : (options.steady_maps < alone ? options.steady_maps : alone);
-        if (detail::fit_warps(cascades, steady, seen, light, casters, receivers, margin_texels, options))
-            alone = steady;
-    }
-    for (int i = 0; i < alone; ++i) {
-        Cascade<T>& cascade = cascades.at[i];
-        ViewVolume<T> const part = slice(seen, cascade.range);
-        if (light.kind == LightKind::directional) {
-            Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
-            CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
-            T const strength = detail::strength_of(options, i);
-            detail::fit_directional(cascade, cascade_fit, strength, part, light, last, casters, receivers,
-                                    margin_texels, options);
-        } else {
-            cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
-        }
-    }
-    for (Cascade<T> const& cascade : cascades) cascades.faults |= cascade.map.faults;
-    return cascades;
-}
-
-// For caster_mask: bit i is cascade i.
-template <class T>
-[[nodiscard]] inline CasterMaps<T> caster_maps(Cascades<T> const& cascades) noexcept {
-    CasterMaps<T> maps;
-    for (Cascade<T> const& cascade : cascades) add_map(maps, cascade.map);
-    return maps;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/sampling.hpp ========
-//
-// Which map a point is looked up in, and what its shadow does to its colour: what a receiver shader decides, on the
-// CPU.
-//
-//   by_depth   the slice of the view that the point's eye depth falls into, fading into the next one. For cascades.
-//   by_map     the first map that holds the point, kernel included. Maps stand in order of preference, so this is also
-//              the order of fallback: a warp before the plain map that catches what the warp cannot see. With cascades
-//              it uses the sharper map wherever maps overlap, at the cost of seams that move with the view.
-//
-// Outside everything is lit.
-
-namespace shadowmath {
-inline namespace v0 {
-
-template <class T>
-struct LookUp {
-    int first = -1;   // map to read; -1: none, the point is lit
-    int second = -1;  // map to fade into; -1 with blend > 0: into light
-    T blend = T(0);   // share of the second, [0, 1]
-};
-
-// True when the map can answer for the point: w above w_min, at least `margin_texels` inside the four sides, and not
-// beyond the map's far end. Nearer to the light than its near end it can: nothing that matters lies in between.
-template <class T>
-[[nodiscard]] inline bool contains(ShadowMap<T> const& map, int map_size, T margin_texels,
-                                   Vec3<T> const& point) noexcept {
-    Projected<T> const at = projected(map.clip_from_world, point, map.w_min);
-    if (!map.visible || !at.in_front || map_size < 1 || !all_finite(&margin_texels, 1)) return false;
-    T const side = T(1) - T(2) * margin_texels / T(map_size);
-    bool const before_far_end = map.clip.depth == DepthOrder::one_to_zero ? at.at.z >= T(0) : at.at.z <= T(1);
-    return at.at.x >= -side && at.at.x <= side && at.at.y >= -side && at.at.y <= side && before_far_end;
-}
-
-// The first of `count` ranges that ends beyond the eye depth. The index never decreases along a view ray, and
-// visibility is continuous across a blend band.
-template <class T>
-[[nodiscard]] inline LookUp<T> by_depth(SliceRange<T> const* ranges, int count, T eye_depth) noexcept {
-    SHADOWMATH_ASSERT(ranges != nullptr || count <= 0, "no ranges to choose from");
-    if (!all_finite(&eye_depth, 1)) return {};
-    for (int i = 0; i < count; ++i) {
-        SliceRange<T> const& range = ranges[i];
-        if (!(eye_depth < range.end)) continue;
-        if (!(eye_depth > range.blend_begin)) return {i, -1, T(0)};
-        int const next = i + 1 < count ? i + 1 : -1;
-        return {i, next, (eye_depth - range.blend_begin) / (range.end - range.blend_begin)};
-    }
-    return {};
-}
-
-// The first of `count` maps that contains the point, or none. `margin_texels` is the kernel's reach: filter radius +
-// 1.
-template <class T>
-[[nodiscard]] inline LookUp<T> by_map(ShadowMap<T> const* maps, int count, int map_size, T margin_texels,
-                                      Vec3<T> const& point) noexcept {
-    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "no maps to choose from");
-    for (int i = 0; i < count; ++i)
-        if (contains(maps[i], map_size, margin_texels, point)) return {i, -1, T(0)};
-    return {};
-}
-
-// Visibility of the two maps of a look-up, mixed; pass 1 for a map that is -1.
-template <class T>
-[[nodiscard]] constexpr T blended(LookUp<T> const& look_up, T first_visibility, T second_visibility) noexcept {
-    return first_visibility * (T(1) - look_up.blend) + second_visibility * look_up.blend;
-}
-
-// Light that is let through takes part in diffuse and specular, never in ambient; albedo tints all three (Kwon 2002,
-// section 4.4). Linear colours; `visibility` 0 to 1.
-template <class T>
-[[nodiscard]] inline Vec3<T> shade(Vec3<T> const& ambient, Vec3<T> const& diffuse, Vec3<T> const& specular,
-                                   T visibility, Vec3<T> const& albedo) noexcept {
-    return (ambient + (diffuse + specular) * visibility) * albedo;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/judge.hpp ========
-//
-// What a set of cascades is worth, measured: the footprint at points that the eye sees, each in the map that serves it.
-// For showing to a user, for tests of a renderer's own maps, and for choose.hpp.
-//
-// Points come from the renderer (a depth buffer read back, with its normals) or from receivers' bounds alone, where no
-// surface is known (samples_in). There each point gets the neutral normal, which leans as far from the eye as from the
-// light: the footprint is then perspective aliasing alone, the part that a fit can do something about.
-
-namespace shadowmath {
-inline namespace v0 {
-
-template <class T>
-struct SurfacePoint {
-    Vec3<T> point{T(0)};   // world
-    Vec3<T> normal{T(0)};  // world, of any length
-};
-
-inline constexpr int max_samples = 256;
-
-template <class T>
-struct Samples {
-    std::array<SurfacePoint<T>, max_samples> at;
-    int count = 0;
-};
-
-// Equally far from the eye and the light in angle; toward the eye where the two are opposite.
-template <class T>
-[[nodiscard]] inline Vec3<T> neutral_normal(ViewVolume<T> const& view, Light<T> const& light,
-                                            Vec3<T> const& point) noexcept {
-    bool const flat = view.kind == ViewKind::orthographic;
-    Vec3<T> const to_eye = flat ? -view.pose.forward : safe_normalize(view.pose.position - point).direction;
-    Normalized<T> const half = safe_normalize(to_eye + toward(light, point));
-    return half.length > T(1e-3) ? half.direction : to_eye;
-}
-
-// Where a ray of the view is inside a box.
-template <class T>
-struct DepthSpan {
-    T first = T(0);  // eye depth
-    T last = T(-1);  // below first: it misses
-};
-
-// The ray through (side_x, side_y) of the view's sides, between its near and far ends.
-template <class T>
-[[nodiscard]] inline DepthSpan<T> depths_in_box(ViewVolume<T> const& view, T side_x, T side_y,
-                                                Aabb<T> const& box) noexcept {
-    Vec3<T> const start = point_at(view, side_x, side_y, view.z_near);
-    Vec3<T> const way = point_at(view, side_x, side_y, view.z_far) - start;
-    T first = T(0), last = T(1);  // of the way
-    for (int axis = 0; axis < 3; ++axis) {
-        T const to_lo = box.lo[axis] - start[axis], to_hi = box.hi[axis] - start[axis];
-        if (std::abs(way[axis]) > T(0)) {
-            T const a = to_lo / way[axis], b = to_hi / way[axis];
-            first = std::fmax(first, std::fmin(a, b));
-            last = std::fmin(last, std::fmax(a, b));
-        } else if (to_lo > T(0) || to_hi < T(0)) {
-            return {};
-        }
-    }
-    T const range = view.z_far - view.z_near;
-    return first <= last ? DepthSpan<T>{view.z_near + first * range, view.z_near + last * range} : DepthSpan<T>{};
-}
-
-namespace detail {
-
-// Where the ray through the middle of cell `ray`, of `across` by `up` that divide the picture, meets the view's sides.
-template <class T>
-[[nodiscard]] inline Vec2<T> side_of_ray(ViewVolume<T> const& view, int ray, int across, int up) noexcept {
-    T const x = (T(ray % across) + T(0.5)) / T(across), y = (T(ray / across) + T(0.5)) / T(up);
-    return {view.left + (view.right - view.left) * x, view.bottom + (view.top - view.bottom) * y};
-}
-
-}  // namespace detail
-
-// Points inside the box as the eye sees it: on a grid of eight by eight rays, four on each, evenly over the orders of
-// depth from where the ray enters to where it leaves; one where the box is a surface. None of a view with faults, or
-// without an end.
-template <class T>
-[[nodiscard]] inline Samples<T> samples_in(ViewVolume<T> const& view, Light<T> const& light,
-                                           Aabb<T> const& receivers) noexcept {
-    Samples<T> samples;
-    if (faults_of(view).any() || is_positive_infinity(&view.z_far) || unusable(light) || !all_finite(receivers) ||
-        is_empty(receivers))
-        return samples;
-    constexpr int rays = 8, on_each = 4;
-    for (int ray = 0; ray < rays * rays; ++ray) {
-        Vec2<T> const side = detail::side_of_ray(view, ray, rays, rays);
-        DepthSpan<T> const inside = depths_in_box(view, side.x, side.y, receivers);
-        if (!(inside.first <= inside.last)) continue;
-        T const begin = inside.first, end = inside.last;
-        T const floor = std::fmax(begin, end * T(1e-6)), ratio = end / floor;
-        int const count = ratio > T(1.001) ? on_each : 1;
-        for (int i = 0; i < count; ++i) {
-            T const depth = floor * std::pow(ratio, (T(i) + T(0.5)) / T(count));
-            Vec3<T> const point = point_at(view, side.x, side.y, depth);
-            if (!all_finite(point)) continue;
-            samples.at[static_cast<std::size_t>(samples.count++)] = {point, neutral_normal(view, light, point)};
-        }
-    }
-    return samples;
-}
-
-template <class T>
-struct Worth {
-    T worst = T(0);    // eye pixels per texel along the longer axis of the footprint, at the worst point
-    T mean = T(0);     // of all points
-    T price = T(0);    // the mean of price_of
-    int count = 0;     // points
-    int unserved = 0;  // of them: no map holds them; they count as footprint_limit
-};
-
-template <class T>
-struct Judgement {
-    Worth<T> all;
-    std::array<Worth<T>, max_splits> map;  // of each cascade, over the points at its depths
-};
-
-// Each point is judged in the first map whose range holds its depth. Points that the eye does not see (w <= 0) and
-// those behind the last range are left out. `eye_pixels`: the size of the picture.
-template <class T>
-[[nodiscard]] inline Judgement<T> judge(Cascades<T> const& cascades, int map_size, ViewVolume<T> const& view,
-                                        Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
-                                        int sample_count) noexcept {
-    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "judge needs its samples");
-    Judgement<T> judgement;
-    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
-    auto const take = [](Worth<T>& worth, T major) {
-        worth.worst = std::fmax(worth.worst, major);
-        worth.mean += major;  // sums until the end
-        worth.price += price_of(major);
-        worth.unserved += major >= footprint_limit<T> ? 1 : 0;
-        ++worth.count;
-    };
-    for (int i = 0; i < sample_count; ++i) {
-        SurfacePoint<T> const& sample = samples[i];
-        if (!all_finite(sample.point)) continue;
-        T const depth = eye_depth(view, sample.point);
-        for (int c = 0; c < cascades.count; ++c) {
-            Cascade<T> const& cascade = cascades.at[c];
-            if (!(depth <= cascade.range.end)) continue;
-            T major = footprint_limit<T>;
-            // Half a texel for the rounding of points on the map's very side.
-            if (contains(cascade.map, map_size, T(-0.5), sample.point)) {
-                Footprint<T> const measured =
-                    footprint(eye, eye_pixels, cascade.map.clip_from_world, T(map_size), sample.point, sample.normal);
-                major = measured.major;
-            }
-            if (!(major > T(0))) break;
-            take(judgement.all, major);
-            take(judgement.map[static_cast<std::size_t>(c)], major);
-            break;
-        }
-    }
-    auto const close = [](Worth<T>& worth) {
-        T const count = T(worth.count > 0 ? worth.count : 1);
-        worth.mean /= count;
-        worth.price /= count;
-    };
-    close(judgement.all);
-    for (Worth<T>& worth : judgement.map) close(worth);
-    return judgement;
-}
-
-// Of one map over all the points, whatever their depth.
-template <class T>
-[[nodiscard]] inline Worth<T> worth_of(ShadowMap<T> const& map, int map_size, ViewVolume<T> const& view,
-                                       Vec2<T> const& eye_pixels, SurfacePoint<T> const* samples,
-                                       int sample_count) noexcept {
-    Cascades<T> alone;
-    alone.count = 1;
-    alone.at[0].map = map;
-    alone.at[0].range.end = std::numeric_limits<T>::max();
-    return judge(alone, map_size, view, eye_pixels, samples, sample_count).all;
-}
-
-// Whether a map drawn for an earlier view will do for this one: no point has lost its map, and the worst texel is at
-// most `factor` times as large as when the map was drawn, or at most `factor` pixels. As long as light and casters are
-// what they were its shadows are right in any case; this is about their edges alone.
-template <class T>
-[[nodiscard]] inline bool still_good(Worth<T> const& drawn, Worth<T> const& now, T factor = T(1.5)) noexcept {
-    T const before = drawn.worst > T(1) ? drawn.worst : T(1);
-    return now.unserved <= drawn.unserved && now.worst <= before * factor;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/vdsm.hpp ========
-//
-// View-dependent shadow map: slide everything along the light onto a shadow plane, look at that from the EYE, keep the
-// light's depth. On the plane, a texel covers the same number of eye pixels from the nearest point to the farthest.
-//
-//   light \   \   \                 One linear map: Q ~ (I - l pi^T / (pi.l)) P. With E the eye's matrix,
-//          P   \   \       eye
-//           \   \   \     /           M = [ E_x Pi ; E_y Pi ; depth ; E_w Pi ]
-//     _______Q___Q___Q___/____ pi
-//                                   is an ordinary 4x4, for suns and spots alike.
-//
-// Use it where most receivers lie near one plane: ground, water, a floor. Not for towers: a receiver well above the
-// plane may be seen from the plane point BEHIND the eye that its light ray meets (w <= 0). Such receivers are not the
-// map's; test receiver_valid, and light them by a second map.
-//
-// Source: T. Kwon, "View-dependent Shadow Maps Using Projective Geometry" (in Korean), Seoul National University, 2002;
-// the relation to Chong and Gortler 2004: same x, y and w, another depth row. Departures: spots as well as suns; w is
-// NOT always positive; the depth row is scaled, since as printed everything projected nearer than one unit is lost to
-// the far plane, and measured from the plane, so that it spans the heights of a scene instead of its extent.
-
-namespace shadowmath {
-inline namespace v0 {
-
-// The points p with normal . p + offset = 0. Neither length nor sign of the normal matters.
-template <class T>
-struct ShadowPlane {
-    Vec3<T> normal{T(0), T(1), T(0)};
-    T offset = T(0);
-};
-
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> plane_through(Vec3<T> const& point, Vec3<T> const& normal) noexcept {
-    Vec3<T> const unit = safe_normalize(normal).direction;
-    return {unit, -glm::dot(unit, point)};
-}
-
-// The thesis' choice: parallel to the ground, at the middle height of what is to receive shadows. An empty box gives
-// the ground through the origin.
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> mean_height_plane(Aabb<T> const& receivers, Vec3<T> const& ground_normal) noexcept {
-    Vec3<T> const middle = is_empty(receivers) ? Vec3<T>(T(0)) : receivers.lo / T(2) + receivers.hi / T(2);
-    return plane_through(middle, ground_normal);
-}
-
-// Moves points along the rays of the light onto the plane: Pi = I - l pi^T / (pi . l), so that Pi Pi = Pi and Pi l = 0.
-// Signs and lengths of the plane and of `homogeneous_light` do not matter, and w stays 1 for a sun; for a spot it is
-// the point's height below the light in heights of the light. The identity where the plane contains the light, or an
-// input is not finite.
-template <class T>
-[[nodiscard]] inline Mat4<T> plane_projection(ShadowPlane<T> const& plane, Vec4<T> const& homogeneous_light) noexcept {
-    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(homogeneous_light))
-        return Mat4<T>(T(1));
-    // Over its largest coordinate, each is as good as before and no product over- or underflows.
-    auto const scaled = [](Vec4<T> const& v) {
-        T const largest = glm::max(glm::max(std::abs(v.x), std::abs(v.y)), glm::max(std::abs(v.z), std::abs(v.w)));
-        return largest > T(0) ? Vec4<T>(v.x / largest, v.y / largest, v.z / largest, v.w / largest) : v;
-    };
-    Vec4<T> const pi = scaled(Vec4<T>(plane.normal, plane.offset)), light = scaled(homogeneous_light);
-    T const height = glm::dot(pi, light);
-    if (!(std::abs(height) > T(1e-30))) return Mat4<T>(T(1));
-    return Mat4<T>(T(1)) - glm::outerProduct(light, pi / height);
-}
-
-template <class T>
-struct VdsmOptions {
-    int map_size = 1024;
-    T margin_texels = T(2);  // of the map kept free on each side, for the filter
-    bool crop = true;        // zoom in on what the receivers need; false: the whole screen, as it is
-    T w_min = T(0);          // metres of eye depth ON THE PLANE below which receivers are not the map's; 0: z_near
-    T reach = T(2);          // how far beyond the screen the map goes, in half screens: receivers off the plane may
-                             // project there; those beyond are not the map's. >= 1
-    T least_sine = T(0.05);  // of the angle between the plane and a sun, or an orthographic view: below it,
-                             // invalid_plane. >= 1e-3
-};
-
-// One map for what the view sees of the receivers, except those with w at or below `w_min`, or more than `reach` half
-// screens out: near the eye's own depth a single such point would take the whole map. Everything on the plane and in
-// view is the map's. Casters are drawn as they are; hardware clips those with w <= 0, of which no receiver here knows.
-//
-// invalid_plane, not visible: the plane has no normal, contains the light (least_sine; spots: 1e-4 of z_far), or
-// passes the eye closer than 1e-4 of z_far (an orthographic eye: least_sine), or beyond 1e12 m. Then use a fit. Casters
-// in the last 1/1024 of the way to a spot are cut.
-template <class T>
-[[nodiscard]] inline ShadowMap<T> view_dependent_map(ViewVolume<T> const& view, Light<T> const& light,
-                                                     ShadowPlane<T> const& plane, Aabb<T> const& casters,
-                                                     Aabb<T> const& receivers, VdsmOptions<T> const& options,
-                                                     ClipSpace clip) noexcept {
-    ShadowMap<T> map;
-    map.clip = clip;
-    Door<T> const in = door(view, light, casters, receivers, options.map_size, options.margin_texels);
-    map.faults = in.faults;
-    if (!all_finite(plane.normal) || !all_finite(&plane.offset, 1) || !all_finite(&options.w_min, 1) ||
-        !all_finite(&options.reach, 1) || !all_finite(&options.least_sine, 1)) {
-        map.faults |= Fault::not_finite;
-        return map;
-    }
-    Normalized<T> const normal = safe_normalize(plane.normal);
-    if (!normal.ok) map.faults |= Fault::invalid_plane;
-    if (!normal.ok || in.stop) return map;
-    T const least_sine = glm::max(options.least_sine, T(1e-3));
-    if (!(options.reach >= T(1)) || options.w_min < T(0) || least_sine != options.least_sine)
-        map.faults |= Fault::clamped_option;
-
-    // All relative to the eye: there the plane is known to the last bit of the eye's height.
-    ViewVolume<T> eye = in.view;
-    Vec3<T> const origin = eye.pose.position;
-    eye.pose.position = Vec3<T>(T(0));
-    Light<T> const& lamp = in.light;
-    bool const sun = lamp.kind == LightKind::directional;
-    Vec4<T> const source = sun ? Vec4<T>(lamp.direction, T(0)) : Vec4<T>(origin - lamp.position, T(-1));
-    Vec4<T> const pi(normal.direction, glm::dot(normal.direction, origin) + plane.offset / normal.length);
-    if (!(std::abs(pi.w) <= T(1e12))) {
-        map.faults |= Fault::invalid_plane;
-        return map;
-    }
-    T const height_of_light = glm::dot(pi, source);
-    T const least_height = T(1e-4) * eye.z_far;
-    // An orthographic eye lies at infinity, against its viewing direction.
-    bool const flat = eye.kind == ViewKind::orthographic;
-    T const height_of_eye = flat ? glm::dot(normal.direction, eye.pose.forward) : pi.w;
-    if (!(std::abs(height_of_eye) >= (flat ? least_sine : least_height)) ||
-        !(std::abs(height_of_light) >= (sun ? least_sine : least_height))) {
-        map.faults |= Fault::invalid_plane;
-        return map;
-    }
-    // Signed distance from the plane, in light vectors: 0 on it, -1 at a spot. A row of Pi is then E - (E . l) along.
-    Vec4<T> const along = pi / height_of_light;
-    Mat4<T> const screen = clip_from_world(eye, ClipSpace{});
-    auto const slid = [&](int r) { return row(screen, r) - along * glm::dot(row(screen, r), source); };
-    MapRows<T> rows;
-    rows.x = slid(0);
-    rows.y = slid(1);
-    rows.w = slid(3);
-    rows.along = along;
-    rows.source = source;
-    rows.parallel = sun;
-    constexpr T nearest = T(1) / T(1024);  // the nearest caster to a spot, as a part of the spot's height
-    if (!sun) rows.along_floor = nearest - T(1);
-    rows.w_min = flat ? nearest : eye.z_near;
-    if (!(rows.w_min > T(0))) {
-        rows.w_min = eye.z_far / T(1 << 20);
-        map.faults |= Fault::near_clamped;
-    }
-    if (options.w_min > T(0)) rows.w_min = glm::max(options.w_min, rows.w_min / T(1024));
-    rows.least_width = T(2) / T(options.map_size);
-    rows.crop = options.crop;
-
-    ConvexBody<T> body = visible_body(in.view, receivers);
-    Vec4<T> const one(T(0), T(0), T(0), T(1));
-    if (!sun) {
-        body = clipped(body, along - one * rows.along_floor);
-        // The pyramid around the cone: beyond it nothing is lit.
-        LightBasis<T> const axes = light_basis(lamp.direction);
-        T const slope = std::tan(lamp.half_angle_radians);
-        for (Vec3<T> const& side : {axes.x, -axes.x, axes.y, -axes.y}) {
-            Vec3<T> const inward = safe_normalize(axes.depth * slope - side).direction;
-            body = clipped(body, Vec4<T>(inward, glm::dot(inward, Vec3<T>(source))));
-        }
-        body = clipped(body, Vec4<T>(-axes.depth, lamp.range - glm::dot(axes.depth, Vec3<T>(source))));
-    }
-    body = clipped(body, rows.w - one * rows.w_min);
-    // What lies beyond the reach takes no part: neither in the region nor in the scale of depth.
-    Vec4<T> const edge = rows.w * (options.crop ? glm::max(options.reach, T(1)) : T(1));
-    for (Vec4<T> const& side : {edge - rows.x, edge + rows.x, edge - rows.y, edge + rows.y}) body = clipped(body, side);
-    Faults const before = map.faults;
-    map = map_from_rows(rows, origin, body, casters, options.map_size, options.margin_texels, clip);
-    map.faults |= before;
-    return map;
-}
-
-// Whether the map can answer for a receiver at all; where it can, the usual test of its sides still applies.
-template <class T>
-[[nodiscard]] inline bool receiver_valid(ShadowMap<T> const& map, Vec3<T> const& point) noexcept {
-    return map.visible && glm::dot(row(map.clip_from_world, 3), Vec4<T>(point, T(1))) > map.w_min;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/plane_choice.hpp ========
-//
-// Which plane a view-dependent map should be drawn on, from the surfaces that the eye sees. Judged by one number: how
-// far the map's texels are from the picture's pixels, as the mean square of the logarithms of the footprint's axes. 0
-// is one texel a pixel everywhere, 0.48 twice too long along one axis.
-//
-//   median height    parallel to the ground, half of what is seen above it: the thesis' choice, made of points; and
-//                    with each point's weight that of its pixels, so that the far does not outvote the near
-//   least squares    through the points as they lie: slopes, walls
-//   least distortion the best of these, moved along its normal until the number is least
-//
-// A plane that changes makes shadows jump: the one of the last frame is kept until another is better by a tenth.
-//
-// Source: Kwon 2002 names the problem and the mean height; the rest is derived here.
-
-namespace shadowmath {
-inline namespace v0 {
-
-template <class T>
-struct PlaneChoice {
-    ShadowPlane<T> plane;
-    T distortion = T(0);   // of this plane
-    bool kept = false;     // it is the previous one
-    bool visible = false;  // false: no samples, or no plane that serves any of them
-};
-
-namespace detail {
-
-// The direction in which a symmetric matrix (xx, yy, zz; xy, yz, zx) is least; zero where two are least alike.
-template <class T>
-[[nodiscard]] inline Vec3<T> least_eigenvector(Vec3<T> const& square, Vec3<T> const& mixed) noexcept {
-    // By the trigonometric formula for the roots, about the mean of the diagonal.
-    T const mean = (square.x + square.y + square.z) / T(3);
-    Vec3<T> const off = square - mean;
-    T const spread = std::sqrt((glm::dot(off, off) + T(2) * glm::dot(mixed, mixed)) / T(6));
-    if (!(spread > T(0))) return Vec3<T>(T(0));
-    Vec3<T> const d = off / spread, m = mixed / spread;
-    T const half_det =
-        (d.x * (d.y * d.z - m.y * m.y) - m.x * (m.x * d.z - m.y * m.z) + m.z * (m.x * m.y - d.y * m.z)) / T(2);
-    constexpr T third_of_a_turn = T(2.09439510239319549230842892218633526L);
-    T const root = T(2) * std::cos(std::acos(glm::clamp(half_det, T(-1), T(1))) / T(3) + third_of_a_turn);
-    // The rows of what is left over are all across the eigenvector.
-    Vec3<T> const x(d.x - root, m.x, m.z), y(m.x, d.y - root, m.y), z(m.z, m.y, d.z - root);
-    Vec3<T> best(T(0));
-    for (Vec3<T> const& across : {glm::cross(x, y), glm::cross(y, z), glm::cross(z, x)})
-        if (glm::dot(across, across) > glm::dot(best, best)) best = across;
-    return glm::dot(best, best) > T(1e-8) ? safe_normalize(best).direction : Vec3<T>(T(0));
-}
-
-}  // namespace detail
-
-// Least sum of squared distances, each over the square of the point's eye depth, so that the far does not outvote the
-// near. Its normal is on the side of the eye. A normal of 0: fewer than three points, or all on one line.
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> least_squares_plane(ViewVolume<T> const& view, SurfacePoint<T> const* samples,
-                                                        int sample_count) noexcept {
-    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
-    Vec3<T> const eye = view.pose.position;
-    auto const weighted_sum = [&](auto const& add) {
-        T total = T(0);
-        for (int i = 0; i < sample_count; ++i) {
-            Vec3<T> const p = samples[i].point - eye;
-            T const depth = glm::dot(p, view.pose.forward);
-            if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
-            T const weight = T(1) / std::fmax(depth * depth, T(1e-12));
-            total += weight;
-            add(p, weight);
-        }
-        return total;
-    };
-    Vec3<T> middle(T(0)), square(T(0)), mixed(T(0));
-    T const total = weighted_sum([&](Vec3<T> const& p, T weight) { middle += p * weight; });
-    if (!(total > T(0))) return {Vec3<T>(T(0)), T(0)};
-    middle /= total;
-    weighted_sum([&](Vec3<T> const& p, T weight) {
-        Vec3<T> const q = p - middle;
-        square += q * q * weight;
-        mixed += Vec3<T>(q.x * q.y, q.y * q.z, q.z * q.x) * weight;
-    });
-    Vec3<T> normal = detail::least_eigenvector(square / total, mixed / total);
-    if (glm::dot(normal, middle) > T(0)) normal = -normal;
-    return {normal, -glm::dot(normal, middle + eye)};
-}
-
-// Across `normal`, with half of the points above it and half below; of more than max_samples points every so many-th is
-// looked at. A normal of 0 comes back as it is, and so does one without points, through the origin.
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> median_plane(Vec3<T> const& normal, SurfacePoint<T> const* samples,
-                                                 int sample_count) noexcept {
-    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
-    Vec3<T> const unit = safe_normalize(normal).direction;
-    std::array<T, max_samples> height;
-    std::size_t count = 0;
-    int const stride = (sample_count + max_samples - 1) / max_samples;
-    for (int i = 0; i < sample_count; i += stride) {
-        if (!all_finite(samples[i].point)) continue;
-        T const h = glm::dot(unit, samples[i].point);
-        std::size_t at = count++;
-        for (; at > 0 && height[at - 1] > h; --at) height[at] = height[at - 1];
-        height[at] = h;
-    }
-    return {unit, count > 0 ? -height[count / 2] : T(0)};
-}
-
-// Across `normal`, with half of the weight on either side: one over the square of a point's eye depth, as for
-// least_squares_plane. Points behind the eye have none. Otherwise as median_plane.
-template <class T>
-[[nodiscard]] inline ShadowPlane<T> weighted_median_plane(ViewVolume<T> const& view, Vec3<T> const& normal,
-                                                          SurfacePoint<T> const* samples, int sample_count) noexcept {
-    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
-    Vec3<T> const unit = safe_normalize(normal).direction;
-    std::array<T, max_samples> height, weight;
-    std::size_t count = 0;
-    T total = T(0);
-    int const stride = (sample_count + max_samples - 1) / max_samples;
-    for (int i = 0; i < sample_count; i += stride) {
-        T const depth = eye_depth(view, samples[i].point);
-        if (!all_finite(samples[i].point) || !(depth > T(0)) || !(depth < T(1e9))) continue;
-        T const h = glm::dot(unit, samples[i].point), w = T(1) / std::fmax(depth * depth, T(1e-12));
-        std::size_t at = count++;
-        for (; at > 0 && height[at - 1] > h; --at) {
-            height[at] = height[at - 1];
-            weight[at] = weight[at - 1];
-        }
-        height[at] = h;
-        weight[at] = w;
-        total += w;
-    }
-    T below = T(0);
-    for (std::size_t i = 0; i < count; ++i) {
-        below += weight[i];
-        if (below * T(2) >= total) return {unit, -height[i]};
-    }
-    return {unit, T(0)};
-}
-
-// Mean square of ln(major) and ln(minor) over the samples, of a map of as many texels as the picture has pixels, before
-// any crop. Points that the plane cannot serve count as footprint_limit. The largest number where nothing is served, or
-// the plane is none.
-template <class T>
-[[nodiscard]] inline T plane_distortion(ShadowPlane<T> const& plane, ViewVolume<T> const& view, Light<T> const& light,
-                                        SurfacePoint<T> const* samples, int sample_count) noexcept {
-    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
-    T const worst = std::numeric_limits<T>::max();
-    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
-    Mat4<T> const slid = plane_projection(plane, homogeneous(light));
-    if (slid == Mat4<T>(T(1)) || !all_finite(slid)) return worst;
-    Mat4<T> const map = eye * slid;
-    T sum = T(0);
-    int count = 0, served = 0;
-    for (int i = 0; i < sample_count; ++i) {
-        Footprint<T> const f = footprint(eye, Vec2<T>(T(1000)), map, T(1000), samples[i].point, samples[i].normal);
-        if (!(f.major > T(0))) continue;
-        T const along = std::log(f.major), across = std::log(std::fmax(f.minor, T(1) / footprint_limit<T>));
-        sum += along * along + across * across;
-        served += f.major < footprint_limit<T> ? 1 : 0;
-        ++count;
-    }
-    return served > 0 ? sum / T(count) : worst;
-}
-
-// The plane of least distortion among: across `ground_normal` at the two median heights, the least squares, and the
-// best one's parallels between the points, to a hundredth of their height. `previous`, if not null, is kept while no
-// other has less than 1 - `hysteresis` times its distortion.
-template <class T>
-[[nodiscard]] inline PlaneChoice<T> choose_plane(ViewVolume<T> const& view, Light<T> const& light,
-                                                 SurfacePoint<T> const* samples, int sample_count,
-                                                 Vec3<T> const& ground_normal, ShadowPlane<T> const* previous = nullptr,
-                                                 T hysteresis = T(0.1)) noexcept {
-    PlaneChoice<T> best;
-    best.distortion = std::numeric_limits<T>::max();
-    if (unusable(light) || faults_of(view).any()) return best;
-    auto const consider = [&](ShadowPlane<T> const& plane) {
-        T const distortion = plane_distortion(plane, view, light, samples, sample_count);
-        if (!(distortion < best.distortion)) return;
-        best = {plane, distortion, false, true};
-    };
-    consider(median_plane(ground_normal, samples, sample_count));
-    consider(weighted_median_plane(view, ground_normal, samples, sample_count));
-    consider(least_squares_plane(view, samples, sample_count));
-    if (best.visible) {
-        Vec3<T> const normal = best.plane.normal;
-        T lo = std::numeric_limits<T>::max(), hi = std::numeric_limits<T>::lowest();
-        for (int i = 0; i < sample_count; ++i) {
-            if (!all_finite(samples[i].point)) continue;
-            lo = std::fmin(lo, glm::dot(normal, samples[i].point));
-            hi = std::fmax(hi, glm::dot(normal, samples[i].point));
-        }
-        for (int round = 0; round < 3 && lo < hi; ++round) {
-            constexpr int steps = 8;
-            T const step = (hi - lo) / T(steps);
-            for (int i = 0; i <= steps; ++i) consider({normal, -(lo + step * T(i))});
-            T const height = -best.plane.offset;
-            lo = height - step;
-            hi = height + step;
-        }
-    }
-    if (previous == nullptr || !all_finite(previous->normal) || !all_finite(&previous->offset, 1)) return best;
-    T const kept = plane_distortion(*previous, view, light, samples, sample_count);
-    T const share = all_finite(&hysteresis, 1) ? glm::clamp(T(1) - hysteresis, T(0), T(1)) : T(1);
-    if (kept < std::numeric_limits<T>::max() && !(best.visible && best.distortion < kept * share))
-        best = {*previous, kept, true, true};
-    return best;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/plane_set.hpp ========
-//
-// Several shadow planes for one view: floor and wall, street and roofs. Each becomes a view-dependent map of its own
-// (view_dependent_map), in this order; behind them stands a map that serves what none of them does, cascades or one
-// uniform map. by_footprint chooses between them point by point.
-//
-// The dominant plane is the one on which most of what is seen gets good texels. Candidates are the tangent planes of
-// the samples: a compromise between floor and wall serves neither, and least squares finds nothing else. What the plane
-// serves well is then taken out, and the next one is chosen for the rest, as long as that is worth a map.
-//
-// Source: the thesis (Kwon 2002) names several planes as future work; Chong and Gortler 2004 draw floor and wall by two
-// maps. The choice is derived here. For one plane of least distortion over all that is seen see plane_choice.hpp.
-
-namespace shadowmath {
-inline namespace v0 {
-
-inline constexpr int max_planes = 4;
-
-template <class T>
-struct PlaneSet {
-    std::array<ShadowPlane<T>, max_planes> at;
-    std::array<T, max_planes> share{};  // of the samples that each serves well and none before it does
-    int count = 0;                      // 0: no plane is worth a map; use cascades
-};
-
-template <class T>
-struct PlaneSetOptions {
-    int most = 2;             // planes, 1 to max_planes
-    T good_pixels = T(2);     // a texel's longer axis up to which a sample counts as well served, of a map with as many
-                              // texels as the picture has pixels; > 1
-    T least_share = T(0.15);  // of the samples that a plane must serve to be worth a map, (0, 1]
-    T hysteresis = T(0.1);    // planes of the last frame stay until another serves so much more
-};
-
-namespace detail {
-
-// How many of the samples a map on this plane serves well; `left`, if not null, gets those that it does not.
-template <class T>
-[[nodiscard]] inline int well_served(ShadowPlane<T> const& plane, Mat4<T> const& eye, Light<T> const& light,
-                                     Samples<T> const& samples, T good_pixels, Samples<T>* left = nullptr) noexcept {
-    Mat4<T> const slid = plane_projection(plane, homogeneous(light));
-    bool const usable = slid != Mat4<T>(T(1)) && all_finite(slid);
-    Mat4<T> const map = eye * slid;
-    int served = 0;
-    for (int i = 0; i < samples.count; ++i) {
-        SurfacePoint<T> const& sample = samples.at[static_cast<std::size_t>(i)];
-        T const major =
-            usable ? footprint(eye, Vec2<T>(T(1000)), map, T(1000), sample.point, sample.normal).major : T(0);
-        if (major > T(0) && major <= good_pixels)
-            ++served;
-        else if (left != nullptr)
-            left->at[static_cast<std::size_t>(left->count++)] = sample;
-    }
-    return served;
-}
-
-}  // namespace detail
-
-// Each plane serves more of what the ones before it leave over than any sample's tangent plane does, or is one of the
-// last frame's within the hysteresis. Samples that nobody sees or that the light does not reach take no part; of more
-// than max_samples every so-many-th is looked at. After at most most * (max_samples + max_planes) looks at all samples;
-// for now and then, not for every frame of a small budget.
-template <class T>
-[[nodiscard]] inline PlaneSet<T> choose_planes(ViewVolume<T> const& view, Light<T> const& light,
-                                               SurfacePoint<T> const* samples, int sample_count,
-                                               PlaneSetOptions<T> const& options = {},
-                                               PlaneSet<T> const* previous = nullptr) noexcept {
-    SHADOWMATH_ASSERT(samples != nullptr || sample_count <= 0, "a plane needs its samples");
-    PlaneSet<T> planes;
-    bool const sound = all_finite(&options.good_pixels, 1) && all_finite(&options.least_share, 1) &&
-                       all_finite(&options.hysteresis, 1);
-    if (!sound || unusable(light) || faults_of(view).any() || sample_count <= 0) return planes;
-    Mat4<T> const eye = clip_from_world(view, ClipSpace{});
-    Samples<T> rest;
-    int const stride = (sample_count + max_samples - 1) / max_samples;
-    for (int i = 0; i < sample_count; i += stride) {
-        SurfacePoint<T> const& sample = samples[i];
-        bool const seen = all_finite(sample.normal) && projected(eye, sample.point).in_front;
-        if (seen && !faces_away(light, sample.point, sample.normal))
-            rest.at[static_cast<std::size_t>(rest.count++)] = sample;
-    }
-    T const all = T(rest.count);
-    int const most = options.most < max_planes ? options.most : max_planes;
-    // A plane of the last frame that is a little behind stays; of two such the first.
-    T const kept_for = T(1) + glm::clamp(options.hysteresis, T(0), T(1));
-    while (planes.count < most && rest.count > 0) {
-        ShadowPlane<T> best{Vec3<T>(T(0)), T(0)};
-        int most_served = 0;
-        for (int i = 0; i < rest.count; ++i) {
-            SurfacePoint<T> const& sample = rest.at[static_cast<std::size_t>(i)];
-            ShadowPlane<T> const tangent = plane_through(sample.point, sample.normal);
-            int const served = detail::well_served(tangent, eye, light, rest, options.good_pixels);
-            if (served <= most_served) continue;
-            most_served = served;
-            best = tangent;
-        }
-        for (int i = 0; previous != nullptr && i < previous->count && i < max_planes; ++i) {
-            ShadowPlane<T> const& last = previous->at[static_cast<std::size_t>(i)];
-            int const served = detail::well_served(last, eye, light, rest, options.good_pixels);
-            if (served == 0 || T(most_served) > T(served) * kept_for) continue;
-            most_served = served;
-            best = last;
-            break;
-        }
-        if (most_served == 0 || T(most_served) < options.least_share * all) break;
-        Samples<T> left;
-        std::size_t const place = static_cast<std::size_t>(planes.count++);
-        planes.at[place] = best;
-        planes.share[place] = T(detail::well_served(best, eye, light, rest, options.good_pixels, &left)) / all;
-        rest = left;
-    }
-    return planes;
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
-// ======== shadowmath/points.hpp ========
-//
-// Points into a map, many at once. Every technique ends as one matrix, so this is the vertex transform of all of them,
-// the view-dependent map's included: what the thesis does in two products and a division a vertex is one product.
-
-namespace shadowmath {
-inline namespace v0 {
-
-// clip[i] = matrix * (points[i], 1), for `count` points; `clip` holds as many and does not overlap them. Columns are
-// added from the first to the last, so the sum may differ from glm's in its last bits. Nothing is divided.
-template <class T>
-inline void clip_points(Mat4<T> const& matrix, Vec3<T> const* points, int count, Vec4<T>* clip) noexcept {
-    SHADOWMATH_ASSERT(count <= 0 || (points != nullptr && clip != nullptr), "clip_points needs two arrays");
-    using Lanes = detail::Lanes<T>;
-    static_assert(sizeof(Lanes) == sizeof(Vec4<T>), "a point in a register");
-    Lanes column[4];
-    std::memcpy(column, &matrix, sizeof column);
-    for (int i = 0; i < count; ++i) {
-        Vec3<T> const& p = points[i];
-        Lanes const at = column[0] * detail::all_four(p.x) + column[1] * detail::all_four(p.y) +
-                         column[2] * detail::all_four(p.z) + column[3];
-        std::memcpy(clip + i, &at, sizeof at);
-    }
-}
-
-}  // namespace v0
-}  // namespace shadowmath
-
 // ======== shadowmath/clipmap.hpp ========
 //
 // Concentric still windows around the eye, each with texels twice as large as the one before, cut into pages: what a
@@ -8309,6 +7755,358 @@ template <class T>
 }  // namespace v0
 }  // namespace shadowmath
 
+// ======== shadowmath/culling.hpp ========
+//
+// Which maps an object must be drawn into: a bit for each map, and the range [first, last] that one instanced draw
+// covers.
+//
+//        light              A caster counts for a map when it reaches into the shaft of light that ends in the map:
+//     |  A |                between its four sides, before its far end, and as far toward the light as you like.
+//   B |    | C              A counts although it lies above the near plane: it is drawn flat where depth is clamped,
+//     |____|   near         and lost where it is not. B and C cannot shadow anything that the map holds; D lies behind
+//     | map|                the last receiver.
+//     |____|   far
+//       D                   A map's matrix is all that is read, so sun, spot, warped and view-dependent maps mix.
+//
+// A box is outside a map when it is wholly outside ONE of the five planes: the usual test, which may keep a box that
+// passes diagonally by an edge of the shaft, and never drops one that reaches inside. Nothing is divided by w, so boxes
+// may lie astride the plane w = 0.
+//
+// Source: the range of splits of an object is that of Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: the near
+// side is open, and all maps of one sun are tested together: they look the same way and share their five normals.
+
+namespace shadowmath {
+inline namespace v0 {
+
+// Bit i: the i-th map.
+using MapMask = std::uint16_t;
+
+inline constexpr int max_caster_maps = 16;
+static_assert(max_splits <= max_caster_maps, "one mask holds all cascades");
+
+struct MapRange {
+    int first = 0;
+    int last = -1;  // first > last: no map
+};
+
+// The shafts of up to max_caster_maps maps, as add_map gives them to caster_mask.
+template <class T>
+struct CasterMaps {
+    // Up to four maps that look the same way. A point p is inside where normal . p >= least, for all five sides.
+    struct Bundle {
+        Vec3<T> normal[5];  // left, right, bottom, top, far
+        T least[5][4] = {};
+        MapMask bit[4] = {};  // 0: no map here
+    };
+    Bundle bundle[max_caster_maps];
+    int bundle_count = 0;
+    int map_count = 0;  // those that were never visible count too, and keep their bit clear
+};
+
+namespace detail {
+
+template <class T>
+[[nodiscard]] inline bool all_in_reach(Vec3<T> const& v) noexcept {
+    return all_finite(v) && largest_of(v) < T(0x1p60);
+}
+
+// Not empty, and in reach.
+template <class T>
+[[nodiscard]] inline bool is_ordinary(Aabb<T> const& box) noexcept {
+    return all_in_reach(box.lo) && all_in_reach(box.hi) && !is_empty(box);
+}
+
+// lo > hi, infinite ends included; false where one is NaN, and no signal of one.
+template <class T>
+[[nodiscard]] inline bool are_crossed(T const& lo, T const& hi) noexcept {
+    T const below = -hi;
+    return (all_finite(&lo, 1) || is_positive_infinity(&lo)) && (all_finite(&hi, 1) || is_positive_infinity(&below)) &&
+           lo > hi;
+}
+
+// By how much a box must grow before it is tested, as a part of the sum of the sizes of its coordinates: 6 epsilon for
+// the roundings of growing, of a dot product and of its normal, 4 for a normal shared by maps; the rest is room.
+template <class T>
+inline constexpr T box_slack = T(16) * std::numeric_limits<T>::epsilon();
+
+// xyz over its largest component, which is then 1, so that no product with a coordinate in reach overflows.
+template <class T>
+[[nodiscard]] inline Vec4<T> side_plane(Vec4<T> const& plane) noexcept {
+    T const largest = std::fmax(std::abs(plane.x), std::fmax(std::abs(plane.y), std::abs(plane.z)));
+    constexpr T beyond_all = T(0x1p70);
+    if (!(largest > T(0))) return Vec4<T>(T(0), T(0), T(0), plane.w < T(0) ? -beyond_all : beyond_all);
+    // Up by its own roundings.
+    T const offset = plane.w / largest * (T(1) + (plane.w < T(0) ? T(-4) : T(4)) * std::numeric_limits<T>::epsilon());
+    return Vec4<T>(plane.x / largest, plane.y / largest, plane.z / largest,
+                   offset < -beyond_all ? -beyond_all : (offset > beyond_all ? beyond_all : offset));
+}
+
+// How far something reaches along the five normals of a bundle.
+template <class T>
+struct Reaches {
+    T left, right, bottom, top, last;
+};
+
+// The maps of one bundle that something with these reaches is inside of.
+// NOTE: all is written out, with & for &&: at -O2 compilers unroll no inner loop, and do many boxes at once only where
+// there is neither loop nor branch.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bit_if_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                                                     Reaches<T> const& reach, int place,
+                                                                     std::uint32_t bit) noexcept {
+    bool const inside = (reach.left >= bundle.least[0][place]) & (reach.right >= bundle.least[1][place]) &
+                        (reach.bottom >= bundle.least[2][place]) & (reach.top >= bundle.least[3][place]) &
+                        (reach.last >= bundle.least[4][place]);
+    return inside ? bit : 0u;
+}
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bits_inside(typename CasterMaps<T>::Bundle const& bundle,
+                                                                   Reaches<T> const& reach) noexcept {
+    return bit_if_inside<T>(bundle, reach, 0, bundle.bit[0]) | bit_if_inside<T>(bundle, reach, 1, bundle.bit[1]) |
+           bit_if_inside<T>(bundle, reach, 2, bundle.bit[2]) | bit_if_inside<T>(bundle, reach, 3, bundle.bit[3]);
+}
+
+template <class T>
+[[nodiscard]] inline MapMask every_bit(CasterMaps<T> const& maps) noexcept {
+    unsigned mask = 0;
+    for (int b = 0; b < maps.bundle_count; ++b)
+        for (MapMask const bit : maps.bundle[b].bit) mask |= bit;
+    return static_cast<MapMask>(mask);
+}
+
+}  // namespace detail
+
+// The map gets the next bit. One that is not visible, or whose matrix is not finite, is never cast into. At most
+// max_caster_maps.
+template <class T>
+inline void add_map(CasterMaps<T>& maps, ShadowMap<T> const& map) noexcept {
+    SHADOWMATH_ASSERT(maps.map_count < max_caster_maps, "more maps than a mask has bits");
+    if (maps.map_count >= max_caster_maps) return;
+    auto const bit = static_cast<MapMask>(1u << maps.map_count++);
+    if (!map.visible || !all_finite(map.clip_from_world)) return;
+    // Halves: a sum of two finite numbers may overflow.
+    Mat4<T> const m = map.clip_from_world * T(0.5);
+    Vec4<T> const x = row(m, 0), y = row(m, 1), z = row(m, 2), w = row(m, 3);
+    Vec4<T> const last = map.clip.depth == DepthOrder::one_to_zero ? z : w - z;
+    typename CasterMaps<T>::Bundle own;
+    int side = 0;
+    for (Vec4<T> const& inner : {w + x, w - x, w + y, w - y, last}) {
+        Vec4<T> const plane = detail::side_plane(inner);
+        own.normal[side] = Vec3<T>(plane);
+        own.least[side++][0] = -plane.w;
+    }
+    own.bit[0] = bit;
+    if (maps.bundle_count > 0) {
+        auto& bundle = maps.bundle[maps.bundle_count - 1];
+        T differ = T(0);
+        for (side = 0; side < 5; ++side)
+            differ = std::fmax(differ, detail::largest_of(bundle.normal[side] - own.normal[side]));
+        int place = 0;
+        while (place < 4 && bundle.bit[place] != 0) ++place;
+        if (place < 4 && differ <= T(4) * std::numeric_limits<T>::epsilon()) {
+            for (side = 0; side < 5; ++side) bundle.least[side][place] = own.least[side][0];
+            bundle.bit[place] = bit;
+            return;
+        }
+    }
+    maps.bundle[maps.bundle_count++] = own;
+}
+
+template <class T>
+[[nodiscard]] inline CasterMaps<T> caster_maps(ShadowMap<T> const* maps, int count) noexcept {
+    SHADOWMATH_ASSERT(maps != nullptr || count <= 0, "caster_maps needs maps");
+    CasterMaps<T> gathered;
+    for (int i = 0; i < count; ++i) add_map(gathered, maps[i]);
+    return gathered;
+}
+
+// Never misses: where any point of the world box lands between the sides of a map (w > 0) and not behind its far end,
+// the map's bit is set. Nor is it set elsewhere, but for the rule above and for boxes within 32 epsilon of the sum of
+// their coordinates' sizes. An empty box casts nowhere; one with a NaN, an infinity or a coordinate beyond 2^60 m in it
+// casts everywhere: a shadow too many is found sooner than one too few.
+template <class T>
+[[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Aabb<T> const& box) noexcept {
+    Vec3<T> const &lo = box.lo, &hi = box.hi;
+    if (!detail::all_in_reach(lo) || !detail::all_in_reach(hi)) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (detail::are_crossed(lo[axis], hi[axis])) return 0;
+        return detail::every_bit(maps);
+    }
+    if (lo.x > hi.x || lo.y > hi.y || lo.z > hi.z) return 0;
+    T const sizes = std::abs(lo.x) + std::abs(hi.x) + std::abs(lo.y) + std::abs(hi.y) + std::abs(lo.z) + std::abs(hi.z);
+    Vec3<T> const grown(detail::box_slack<T> * sizes), first = lo - grown, last = hi + grown;
+    std::uint32_t mask = 0;
+    for (int b = 0; b < maps.bundle_count; ++b) {
+        auto const& bundle = maps.bundle[b];
+        auto const reach = [&](int side) {
+            Vec3<T> const& normal = bundle.normal[side];
+            return normal.x * (normal.x > T(0) ? last.x : first.x) + normal.y * (normal.y > T(0) ? last.y : first.y) +
+                   normal.z * (normal.z > T(0) ? last.z : first.z);
+        };
+        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
+    }
+    return static_cast<MapMask>(mask);
+}
+
+// As for a box, with the ball in its place; one of negative radius casts nowhere.
+template <class T>
+[[nodiscard]] inline MapMask caster_mask(CasterMaps<T> const& maps, Sphere<T> const& sphere) noexcept {
+    Vec3<T> const& centre = sphere.center;
+    if (detail::are_crossed(T(0), sphere.radius)) return 0;
+    if (!detail::all_in_reach(centre) || !detail::all_in_reach(Vec3<T>(sphere.radius))) return detail::every_bit(maps);
+    T const sizes = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + sphere.radius;
+    T const radius = sphere.radius + detail::box_slack<T> * sizes;
+    std::uint32_t mask = 0;
+    for (int b = 0; b < maps.bundle_count; ++b) {
+        auto const& bundle = maps.bundle[b];
+        auto const reach = [&](int side) {
+            Vec3<T> const& normal = bundle.normal[side];
+            return glm::dot(normal, centre) + radius * std::sqrt(glm::dot(normal, normal));
+        };
+        mask |= detail::bits_inside<T>(bundle, {reach(0), reach(1), reach(2), reach(3), reach(4)});
+    }
+    return static_cast<MapMask>(mask);
+}
+
+namespace detail {
+
+inline constexpr int boxes_at_once = 64;
+
+// What the reach of a box along a normal must grow by, as a part of the size of its largest coordinate: of the three
+// products each may be off by the 10 epsilon of box_slack.
+template <class T>
+inline constexpr T reach_slack = T(32) * std::numeric_limits<T>::epsilon();
+
+// One block of boxes. Masks of those that are empty, not finite or beyond reach are none; `odd` says that there are
+// such.
+template <class T>
+struct MaskBlock {
+    CasterMaps<T> const& maps;
+    BoxArrays<T> const& boxes;
+    MapMask* masks;
+    std::uint32_t const (&bits)[max_caster_maps][4];  // of each bundle: as wide as numbers are
+    bool& odd;
+
+    // How far box i reaches along a normal, by the end of each axis that lies farther along it.
+    struct Side {
+        Vec3<T> normal;
+        T const *x, *y, *z;
+        [[gnu::always_inline]] T operator()(int i) const noexcept {
+            return normal.x * x[i] + normal.y * y[i] + normal.z * z[i];
+        }
+    };
+    [[gnu::always_inline]] Side side_of(Vec3<T> const& normal) const noexcept {
+        return {normal, normal.x > T(0) ? boxes.hi_x : boxes.lo_x, normal.y > T(0) ? boxes.hi_y : boxes.lo_y,
+                normal.z > T(0) ? boxes.hi_z : boxes.lo_z};
+    }
+
+    [[gnu::always_inline]] inline void operator()() const noexcept {
+        constexpr int n = boxes_at_once;
+        T grown[n];
+        std::uint32_t any_odd = 0;
+        decltype(beyond_reach(T(0))) beyond = 0;
+        auto const less = [](T a, T b) { return a < b ? a : b; };
+        auto const more = [](T a, T b) { return a > b ? a : b; };
+        for (int i = 0; i < n; ++i) {
+            T const lo = less(less(boxes.lo_x[i], boxes.lo_y[i]), boxes.lo_z[i]);
+            T const hi = more(more(boxes.hi_x[i], boxes.hi_y[i]), boxes.hi_z[i]);
+            T const largest = more(hi, -lo);
+            // NOTE: an end that is not a number is in no order, so that `largest` need not know it.
+            bool const full =
+                (boxes.lo_x[i] <= boxes.hi_x[i]) & (boxes.lo_y[i] <= boxes.hi_y[i]) & (boxes.lo_z[i] <= boxes.hi_z[i]);
+            any_odd |= full ? 0u : ~0u;
+            beyond |= beyond_reach(largest);
+            grown[i] = reach_slack<T> * largest;
+        }
+        odd = any_odd != 0 || beyond >> (8 * sizeof beyond - 1) != 0;
+        if (maps.bundle_count == 0) std::memset(masks, 0, n * sizeof *masks);
+        for (int b = 0; b < maps.bundle_count; ++b) {
+            typename CasterMaps<T>::Bundle const& bundle = maps.bundle[b];
+            // NOTE: side by side, five sides want more registers than there are.
+            std::uint32_t const(&bit)[4] = bits[b];
+            Side const left = side_of(bundle.normal[0]), right = side_of(bundle.normal[1]);
+            Side const bottom = side_of(bundle.normal[2]), top = side_of(bundle.normal[3]);
+            Side const last = side_of(bundle.normal[4]);
+            T const(&from_left)[4] = bundle.least[0], (&from_right)[4] = bundle.least[1];
+            T const(&from_bottom)[4] = bundle.least[2], (&from_top)[4] = bundle.least[3];
+            T const(&from_last)[4] = bundle.least[4];
+            std::uint32_t in_0[n], in_1[n], in_2[n], in_3[n];  // all ones, or zero
+            for (int i = 0; i < n; ++i) {
+                T const a = left(i) + grown[i], c = right(i) + grown[i];
+                in_0[i] = ((a >= from_left[0]) & (c >= from_right[0])) ? ~0u : 0u;
+                in_1[i] = ((a >= from_left[1]) & (c >= from_right[1])) ? ~0u : 0u;
+                in_2[i] = ((a >= from_left[2]) & (c >= from_right[2])) ? ~0u : 0u;
+                in_3[i] = ((a >= from_left[3]) & (c >= from_right[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = bottom(i) + grown[i], c = top(i) + grown[i];
+                in_0[i] &= ((a >= from_bottom[0]) & (c >= from_top[0])) ? ~0u : 0u;
+                in_1[i] &= ((a >= from_bottom[1]) & (c >= from_top[1])) ? ~0u : 0u;
+                in_2[i] &= ((a >= from_bottom[2]) & (c >= from_top[2])) ? ~0u : 0u;
+                in_3[i] &= ((a >= from_bottom[3]) & (c >= from_top[3])) ? ~0u : 0u;
+            }
+            for (int i = 0; i < n; ++i) {
+                T const a = last(i) + grown[i];
+                in_0[i] &= a >= from_last[0] ? ~0u : 0u;
+                in_1[i] &= a >= from_last[1] ? ~0u : 0u;
+                in_2[i] &= a >= from_last[2] ? ~0u : 0u;
+                in_3[i] &= a >= from_last[3] ? ~0u : 0u;
+            }
+            auto const bits_of = [&](int i) {
+                return (in_0[i] & bit[0]) | (in_1[i] & bit[1]) | (in_2[i] & bit[2]) | (in_3[i] & bit[3]);
+            };
+            if (b == 0)
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(bits_of(i));
+            else
+                for (int i = 0; i < n; ++i) masks[i] = static_cast<MapMask>(masks[i] | bits_of(i));
+        }
+    }
+};
+
+}  // namespace detail
+
+// masks[i] = caster_mask(maps, box i), for `count` boxes in one pass over memory for all maps; the six arrays and
+// `masks` hold `count` values each, do not overlap, and need no alignment. Where a box touches a plane to the last
+// bits, it may count in one and not in the other; both count every caster.
+template <class T>
+inline void caster_masks(CasterMaps<T> const& maps, BoxArrays<T> const& boxes, int count, MapMask* masks) noexcept {
+    SHADOWMATH_ASSERT(
+        count <= 0 || (masks != nullptr && boxes.lo_x != nullptr && boxes.hi_x != nullptr && boxes.lo_y != nullptr &&
+                       boxes.hi_y != nullptr && boxes.lo_z != nullptr && boxes.hi_z != nullptr),
+        "caster_masks needs six arrays of boxes and one of masks");
+    std::uint32_t bits[max_caster_maps][4];
+    for (int b = 0; b < maps.bundle_count; ++b)
+        for (int place = 0; place < 4; ++place) bits[b][place] = maps.bundle[b].bit[place];
+    constexpr int n = detail::boxes_at_once;
+    for (int begin = 0; begin < count; begin += n) {
+        BoxArrays<T> const block = boxes_from(boxes, begin);
+        int const length = count - begin < n ? count - begin : n;
+        bool odd = false;
+        if (length == n) detail::run_widely(detail::MaskBlock<T>{maps, block, masks + begin, bits, odd});
+        if (length == n && !odd) continue;
+        for (int i = 0; i < length; ++i) {
+            Aabb<T> const box = box_at(block, i);
+            if (length < n || !detail::is_ordinary(box)) masks[begin + i] = caster_mask(maps, box);
+        }
+    }
+}
+
+// The least range that holds every map of the mask: the split range of GPU Gems 3, to draw last - first + 1 instances
+// of an object. Where the mask has a hole, the range draws into it for nothing.
+[[nodiscard]] constexpr MapRange map_range(MapMask mask) noexcept {
+    MapRange range;
+    for (int i = 0; i < max_caster_maps; ++i) {
+        if ((mask >> i & 1) == 0) continue;
+        if (range.first > range.last) range.first = i;
+        range.last = i;
+    }
+    return range;
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
 // ======== shadowmath/map_ray.hpp ========
 //
 // The light that a matrix is a map of, read from the matrix: the way in which depth grows and the texel stays the same.
@@ -8393,6 +8191,223 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T shimmer_texels(TexelShift<T> const& shift) noexcept {
     return std::fmax(std::abs(shift.off_grid.x), std::abs(shift.off_grid.y));
+}
+
+}  // namespace v0
+}  // namespace shadowmath
+
+// ======== shadowmath/cascades.hpp ========
+//
+// The one call: a view, a light and two boxes go in, one matrix for each cascade comes out.
+//
+//   view ── splits ── slices ─┬─ fit ── depth range ── matrix
+//   light ── basis ───────────┘
+//
+//   stable      bounding sphere on a texel grid: nothing shimmers when the camera moves or turns
+//   tight       light-space box: up to twice the texels, and shadow edges crawl under motion
+//   rectangle   the smallest rectangle at any angle: a quarter fewer metres than tight
+//   focus       the smallest around what can be seen in shadow: receivers in view that casters are above
+//   warped      a perspective warp of each slice (warp.hpp): texels small near the eye within every map
+//
+// Use `stable` unless the camera never moves or a temporal filter hides the crawl; or for the nearest maps alone, where
+// a crawl is seen most and a finer fit gains least (`steady_maps`). choose.hpp finds the rest by measuring. Every step
+// is a header of its own, so a renderer that needs another order calls them itself.
+//
+// Source: Zhang, Sun, Nyman, GPU Gems 3 chapter 10. Departures: corners come from the sides of the view, not from an
+// inverse matrix; maps are fitted to each slice directly, not cropped out of one common light projection; the stable
+// fit is the minimal sphere, and its grid has integer origins.
+
+namespace shadowmath {
+inline namespace v0 {
+namespace detail {
+
+// The view with what can be mended mended: axes orthonormal, far at the shadow distance.
+template <class T>
+[[nodiscard]] inline ViewVolume<T> shadowed_part(ViewVolume<T> const& view, T const& shadow_distance,
+                                                 Faults& faults) noexcept {
+    faults |= faults_of(view);
+    ViewVolume<T> part = view;
+    if (faults.has(Fault::not_finite) || faults.has(Fault::bad_pose)) return part;
+    part.pose = orthonormalized(view.pose);
+    bool const endless = is_positive_infinity(&view.z_far);
+    if (!all_finite(&shadow_distance, 1) || shadow_distance < T(0)) {
+        faults |= Fault::clamped_option;
+    } else if (shadow_distance > T(0) && (endless || shadow_distance < view.z_far)) {
+        part.z_far = shadow_distance;
+        if (!(part.z_near < part.z_far)) faults |= Fault::empty_range;
+        return part;
+    }
+    if (endless) {
+        // Somewhere shadows must end. A thousand metres, or ten thousand near distances where the unit is larger.
+        part.z_far = view.z_near * T(1e4) > T(1000) ? view.z_near * T(1e4) : T(1000);
+        faults |= Fault::far_clamped;
+    }
+    return part;
+}
+
+template <class T>
+inline void fit_stable(Cascade<T>& cascade, ViewVolume<T> const& part, LightBasis<T> const& basis,
+                       DepthRange<T> const& slice_depth, T previous_texel, Aabb<T> const& casters,
+                       Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    Sphere<T> const sphere = bounding_sphere(part);
+    TexelGrid<T> grid = texel_grid(basis, sphere, options.map_size, margin_texels);
+    T const held = held_size(grid.texel_metres, previous_texel);
+    if (grid.visible && held != grid.texel_metres) grid = grid_window(basis, sphere.center, held, options.map_size);
+    cascade.map.faults |= grid.faults;
+    if (!grid.visible) return;
+    LightBox<T> const sides = on_grid(grid, slice_depth.lo, slice_depth.hi);
+    DepthRange<T> const depth = depth_range(sides, slice_depth, casters, receivers, options.pancake);
+    if (!depth.visible) return;
+    cascade.map.clip_from_world = clip_from_world(grid, depth.lo, depth.hi, options.clip);
+    cascade.map.visible = true;
+    cascade.texel_metres = grid.texel_metres;
+    cascade.depth_metres = depth.hi - depth.lo;
+}
+
+// `previous`: the same map in the last frame, or one that is not visible.
+template <class T>
+inline void fit_directional(Cascade<T>& cascade, CascadeFit cascade_fit, T warp_strength, ViewVolume<T> const& part,
+                            Light<T> const& light, Cascade<T> const& previous, Aabb<T> const& casters,
+                            Aabb<T> const& receivers, T margin_texels, CascadeOptions<T> const& options) noexcept {
+    if (cascade_fit == CascadeFit::warped) {
+        WarpOptions<T> const warp{options.map_size, margin_texels, warp_strength};
+        cascade.map = simple_perspective_map(part, light, casters, receivers, warp, options.clip);
+        return;
+    }
+    LightBasis<T> const basis = light_basis(light.direction);
+    std::array<Vec3<T>, 8> const body = corners(part);
+    LightBox<T> sides = fit_box(basis, body, options.map_size, margin_texels);
+    DepthRange<T> depth{sides.depth_lo, sides.depth_hi, true};
+    if (cascade_fit == CascadeFit::stable) {
+        fit_stable(cascade, part, basis, depth, previous.texel_metres, casters, receivers, margin_texels, options);
+        return;
+    }
+    Vec3<T> const previous_x = previous.map.visible ? Vec3<T>(row(previous.map.clip_from_world, 0)) : Vec3<T>(T(0));
+    if (cascade_fit == CascadeFit::focus) {
+        Focus<T> const focus = focus_of(part, light, casters, receivers);
+        if (!focus.visible) return;
+        sides = fit_rectangle(basis, focus.receivers, options.map_size, margin_texels, previous_x);
+        depth = focus.depth;
+        if (options.pancake) depth.lo = focus.first_receiver;
+    } else {
+        if (cascade_fit == CascadeFit::rectangle)
+            sides = fit_rectangle(basis, convex_body(body), options.map_size, margin_texels, previous_x);
+        depth = depth_range(sides, depth, casters, receivers, options.pancake);
+    }
+    if (!depth.visible) return;
+    sides.depth_lo = depth.lo;
+    sides.depth_hi = depth.hi;
+    cascade.map.clip_from_world = clip_from_world(sides, options.clip);
+    cascade.map.visible = true;
+    Vec2<T> const texel = texel_metres(sides, options.map_size);
+    cascade.texel_metres = texel.x > texel.y ? texel.x : texel.y;
+    cascade.depth_metres = depth.hi - depth.lo;
+}
+
+template <class T>
+[[nodiscard]] inline T strength_of(CascadeOptions<T> const& options, int map) noexcept {
+    return options.warp_strength * (T(1) - options.warp_less[static_cast<unsigned>(map)]);
+}
+
+// All warped maps from `first` on at once; false, and nothing done, where they must be made one by one. `seen` is
+// mended.
+template <class T>
+[[nodiscard]] inline bool fit_warps(Cascades<T>& cascades, int first, ViewVolume<T> const& seen, Light<T> const& light,
+                                    Aabb<T> const& casters, Aabb<T> const& receivers, T margin_texels,
+                                    CascadeOptions<T> const& options) noexcept {
+    SliceRange<T> ranges[max_splits];
+    T strengths[max_splits];
+    ShadowMap<T>* maps[max_splits];
+    int const count = cascades.count - first;
+    bool in_range = count > 0 && light.kind == LightKind::directional;
+    for (int i = 0; i < count; ++i) {
+        Cascade<T>& cascade = cascades.at[first + i];
+        ranges[i] = cascade.range, maps[i] = &cascade.map;
+        strengths[i] = strength_of(options, first + i);
+        in_range = in_range && all_finite(&strengths[i], 1) && strengths[i] >= T(0) && strengths[i] <= T(2);
+    }
+    if (!in_range) return false;
+    WarpInputs<T> const in{
+        seen,        safe_normalize(light.direction).direction, faults_of(light), options.map_size, margin_texels,
+        options.clip};
+    return warp_slices(in, ranges, strengths, count, casters, receivers, maps);
+}
+
+}  // namespace detail
+
+// Every point that the eye can see up to the shadow distance and that lies in `receivers` is inside the map of its
+// slice, filter margin included, in any clip convention; every caster of `casters` on its way to the light is in that
+// map. With CascadeFit::stable and an unmoving light, a world point keeps its place within a texel whatever the camera
+// does. With CascadeFit::focus, points that no ray of light reaches through `casters` are left out; they read as lit.
+// `casters` and `receivers` are world boxes; either empty: no map is visible, and that is no fault. `previous`, if not
+// null: the last frame's. Rectangles keep its angle while that is nearly as good, and stable maps its size while that
+// is not a quarter too much: so a slow zoom does not set all shadows crawling.
+template <class T>
+[[nodiscard]] inline Cascades<T> fit_cascades(ViewVolume<T> const& view, Light<T> const& light, Aabb<T> const& casters,
+                                              Aabb<T> const& receivers, CascadeOptions<T> const& options,
+                                              Cascades<T> const* previous = nullptr) noexcept {
+    Cascades<T> cascades;
+    Faults faults = faults_of(light);
+    ViewVolume<T> const seen = detail::shadowed_part(view, options.shadow_distance, faults);
+    if (!all_finite(casters) || !all_finite(receivers)) faults |= Fault::not_finite;
+    bool const unusable_view = faults.has(Fault::not_finite) || faults.has(Fault::bad_frustum) ||
+                               faults.has(Fault::bad_pose) || faults.has(Fault::empty_range);
+    if (unusable_view || unusable(light)) {
+        cascades.faults = faults;
+        return cascades;
+    }
+    bool const pinned = !(options.first_split_end == T(0));
+    Splits<T> const splits =
+        pinned ? pinned_splits(seen.z_near, seen.z_far, options.count, options.first_split_end, options.lambda)
+               : practical_splits(seen.z_near, seen.z_far, options.count, options.lambda);
+    // One texel more than the kernel needs: the texel that holds the point may be cut by the map's side.
+    T const margin_texels = T(detail::kernel_radius(options, faults) + 1);
+    faults |= faults_of_margin(options.map_size, margin_texels);
+    if (faults.has(Fault::map_too_small)) {
+        cascades.faults = faults;
+        return cascades;
+    }
+    T blend = options.blend;
+    if (!all_finite(&options.blend, 1) || blend < T(0) || blend > T(1)) {
+        blend = all_finite(&options.blend, 1) && blend > T(1) ? T(1) : T(0);
+        faults |= Fault::clamped_option;
+    }
+    cascades.count = splits.count;
+    cascades.faults = faults | splits.faults;
+    for (int i = 0; i < splits.count; ++i) {
+        cascades.at[i].range = slice_range(splits, i, blend);
+        cascades.at[i].map.clip = options.clip;
+    }
+    if (is_empty(casters) || is_empty(receivers)) return cascades;
+    int alone = splits.count;  // so many of the first are made one by one
+    if (options.fit == CascadeFit::warped) {
+        int const steady = options.steady_maps < 0 ? 0 : (options.steady_maps < alone ? options.steady_maps : alone);
+        if (detail::fit_warps(cascades, steady, seen, light, casters, receivers, margin_texels, options))
+            alone = steady;
+    }
+    for (int i = 0; i < alone; ++i) {
+        Cascade<T>& cascade = cascades.at[i];
+        ViewVolume<T> const part = slice(seen, cascade.range);
+        if (light.kind == LightKind::directional) {
+            Cascade<T> const last = previous != nullptr && i < previous->count ? previous->at[i] : Cascade<T>{};
+            CascadeFit const cascade_fit = i < options.steady_maps ? CascadeFit::stable : options.fit;
+            T const strength = detail::strength_of(options, i);
+            detail::fit_directional(cascade, cascade_fit, strength, part, light, last, casters, receivers,
+                                    margin_texels, options);
+        } else {
+            cascade.map = fit_spot(part, light, casters, receivers, options.map_size, margin_texels, options.clip);
+        }
+    }
+    for (Cascade<T> const& cascade : cascades) cascades.faults |= cascade.map.faults;
+    return cascades;
+}
+
+// For caster_mask: bit i is cascade i.
+template <class T>
+[[nodiscard]] inline CasterMaps<T> caster_maps(Cascades<T> const& cascades) noexcept {
+    CasterMaps<T> maps;
+    for (Cascade<T> const& cascade : cascades) add_map(maps, cascade.map);
+    return maps;
 }
 
 }  // namespace v0

@@ -24,7 +24,7 @@
 #pragma once
 
 #include <shadowmath/bias.hpp>
-#include <shadowmath/cascades.hpp>
+#include <shadowmath/cascade.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/finite.hpp>
 #include <shadowmath/light.hpp>

@@ -9,7 +9,7 @@
 #pragma once
 
 #include <shadowmath/bounds.hpp>
-#include <shadowmath/cascades.hpp>
+#include <shadowmath/cascade.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/finite.hpp>
 #include <shadowmath/footprint.hpp>

@@ -32,7 +32,7 @@
 #pragma once
 
 #include <shadowmath/bounds.hpp>
-#include <shadowmath/cascades.hpp>
+#include <shadowmath/cascade.hpp>
 #include <shadowmath/clip_space.hpp>
 #include <shadowmath/config.hpp>
 #include <shadowmath/fault.hpp>

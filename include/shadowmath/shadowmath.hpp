@@ -65,6 +65,7 @@
 #include <shadowmath/tangent.hpp>
 
 // The one call.
+#include <shadowmath/cascade.hpp>
 #include <shadowmath/cascades.hpp>
 
 // Which options.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/support/street.hpp"
 #include "tests/support/watched.hpp"
 
 #include <shadowmath/box_samples.hpp>
@@ -134,6 +135,32 @@ TEST(BoxSamples, EveryGuessIsInABoxAndInTheView) {
         EXPECT_TRUE(std::abs(sample.seen.x) < view.right && std::abs(sample.seen.y) < view.top);
         EXPECT_TRUE(sample.seen.z > view.z_near && sample.seen.z < view.z_far);
     }
+}
+
+TEST(BoxSamples, ARayEndsInTheBoxesThatItMeets) {
+    test::Street const street;
+    LightSampler<double> const sampler = light_sampler(street.view, test::street_morning, V2(1920, 1080), V2(20, 12));
+    std::vector<LightSample<double>> guesses(max_search_samples);
+    int const count = guesses_in_boxes(sampler, test::street_morning, street.boxes.data(), int(street.boxes.size()),
+                                       guesses.data(), int(guesses.size()));
+    ASSERT_GT(count, 100);
+    double weight = 0.0;
+    for (int i = 0; i < count; ++i) {
+        LightSample<double> const& guess = guesses[std::size_t(i)];
+        V3 const point = point_at(street.view, guess.seen.x, guess.seen.y, guess.seen.z);
+        bool inside = false;
+        for (auto box : street.boxes) {
+            box.lo -= 1e-9, box.hi += 1e-9;
+            inside = inside || contains(box, point);
+        }
+        EXPECT_TRUE(inside);
+        weight += guess.weight;
+    }
+    EXPECT_LE(weight, guess_rays_x * guess_rays_y * 1.0001);
+    EXPECT_GT(weight, 50.0);
+    EXPECT_EQ(guesses_in_boxes(sampler, test::street_morning, street.boxes.data(), int(street.boxes.size()),
+                               guesses.data(), 7),
+              7);
 }
 
 TEST(BoxSamples, ARayWeighsOneHoweverManyBoxesItMeets) {

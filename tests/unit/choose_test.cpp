@@ -97,6 +97,27 @@ TEST(Choose, PlacesTheSplitsToAHundredth) {
     }
 }
 
+// From above a little of the far end's share is best.
+TEST(Choose, PlacesTheSplitsToAHundredthFarFromTheLogarithmicOnes) {
+    ViewVolume<double> const view =
+        perspective_view(pose_looking(V3(0, 60, 0), V3(0.4, -2, -1), V3(0, 1, 0)), 1.0, 1.6, 0.1, 250.0);
+    Samples<double> const samples = samples_in(view, morning, town);
+    ChoiceLimits<double> const limits;
+    auto const choice = choose(view, morning, town, town, samples.at.data(), samples.count, {}, limits);
+    EXPECT_GT(choice.options.lambda, 0.05);
+    EXPECT_LT(choice.options.lambda, 0.6);
+    CascadeOptions<double> options = choice.options;
+    for (int i = 0; i <= 100; ++i) {
+        options.lambda = 0.01 * i;
+        auto const cascades = fit_cascades(view, morning, town, town, options);
+        EXPECT_LE(
+            choice.judgement.all.worst,
+            judge(cascades, options.map_size, view, limits.eye_pixels, samples.at.data(), samples.count).all.worst *
+                1.005)
+            << i;
+    }
+}
+
 TEST(Choose, GainsWithFreedomAndWithTexels) {
     Chosen const chosen;
     ChoiceLimits<double> limits;
@@ -127,6 +148,8 @@ TEST(Choose, WarpsEachMapAsMuchAsHelpsIt) {
             Choice<double> const choice = choose(view, sun, town, town, samples.at.data(), samples.count, {}, limits);
             if (choice.options.fit != CascadeFit::warped) continue;
             ++warped;
+            // One map as it is and three counts at 29 splits, each with five fits; then two strengths a map.
+            EXPECT_EQ(choice.tried, 5 * (1 + 3 * 29) + 2 * choice.options.count);
             auto const value_of = [&](CascadeOptions<double> const& options) {
                 auto const cascades = fit_cascades(view, sun, town, town, options);
                 Judgement<double> const judged =

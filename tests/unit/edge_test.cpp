@@ -108,3 +108,34 @@ TYPED_TEST(AnyEdge, SeenThroughAPixelIsAStraightLine) {
         }
     }
 }
+
+// Along the triangle's normal, from once to sqrt(3) times as far as it says.
+TYPED_TEST(AnyEdge, AMarginBeginsBehindTheTriangleWhateverItsSlope) {
+    using T = TypeParam;
+    using V = Vec3<T>;
+    ViewVolume<T> eye;
+    eye.pose = pose_looking(V(0, 4, 12), V(T(0.1), T(-0.2), -1), V(0, 1, 0));
+    V const travel(T(0.3), T(-1), T(0.2));
+    for (ViewKind const kind : {ViewKind::perspective, ViewKind::orthographic})
+        for (int i = 0; i < 100; ++i) {
+            eye.kind = kind;
+            PixelFrame<T> const frame = pixel_frame(eye, 1280, 720);
+            auto const coordinate = [i](int k) {
+                return static_cast<T>(std::sin(12.9898 * (i * 9 + k) + 78.233) * 3.0);
+            };
+            V const a(coordinate(0), coordinate(1), coordinate(2)), b(coordinate(3), coordinate(4), coordinate(5));
+            V const c(coordinate(6), coordinate(7), coordinate(8));
+            V behind = glm::normalize(glm::cross(b - a, c - a));
+            if (glm::dot(behind, travel) < T(0)) behind = -behind;
+            for (bool const by_share : {false, true}) {
+                ContactMargin<T> const margin{T(by_share ? 0 : 0.2), T(by_share ? 0.02 : 0)};
+                ShadowVolume<T> const volume =
+                    shadow_volume(frame, pixel_light(frame, directional(travel)), point_in_pixels(frame, a),
+                                  point_in_pixels(frame, b), point_in_pixels(frame, c), margin);
+                V const middle = (a + b + c) / T(3);
+                T const metres = by_share ? T(0.02) * point_in_pixels(frame, middle).z : T(0.2);
+                EXPECT_LT(value_at(frame, volume.planes[0], middle + behind * (metres * T(0.95))), T(0)) << i;
+                EXPECT_GT(value_at(frame, volume.planes[0], middle + behind * (metres * T(1.85))), T(0)) << i;
+            }
+        }
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // That the structs for shaders hold what the cascades say. That shaders find it there: tests/twins/layout_test.cpp.
+#include <shadowmath/cascades.hpp>
 #include <shadowmath/gpu.hpp>
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "tests/support/watched.hpp"
 
 #include <shadowmath/aliasing.hpp>
+#include <shadowmath/cascades.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -121,6 +122,44 @@ struct Gap {
     }
 };
 
+// Four strips beside each other, each with a map and its samples; as many pieces as are asked for.
+struct Strips {
+    std::unique_ptr<MapSearch<double>> work = std::make_unique<MapSearch<double>>();
+    std::array<std::vector<std::array<V3, 4>>, 4> pieces;
+    detail::QuadStack<double> stack;
+
+    explicit Strips(std::array<int, 4> const& count, int samples = 400) {
+        for (int i = 0; i < samples; ++i) {
+            LightSample<double> sample;
+            sample.place = V2(0.04 * (i % 100) + 0.02, (i / 100 + 0.5) * 400.0 / samples);
+            sample.seen = V3(sample.place, 1.0);
+            sample.gain_x = V2(sample.place.x < 1.5 ? 400.0 : 50.0, 0);
+            sample.gain_y = V2(0, sample.gain_x.x);
+            sample.usable = true;
+            work->sample[unsigned(work->count++)] = sample;
+        }
+        stack.count = 4;
+        for (unsigned k = 0; k < 4; ++k) {
+            stack.part[k].lo.x = k;
+            stack.part[k].hi.x = k + 1.0;
+            stack.quad[k] = box(V2(k - 0.01, -0.01), V2(k + 1.01, 4.01));
+            for (int i = 0; i < count[k]; ++i) {
+                V2 const lo(k + (i % 10) * 0.1, 4.0 * (i / 10) / (count[k] / 10 + 1.0)), hi = lo + V2(0.1, 0.001);
+                pieces[k].push_back({V3(lo, 0), V3(hi.x, lo.y, 0), V3(lo.x, hi.y, 0), V3(hi, 0)});
+            }
+        }
+    }
+    [[nodiscard]] auto cover() const {
+        return [this](ViewPart<double> const& part, auto const& visit) {
+            for (auto const& piece : pieces[unsigned(part.lo.x)]) visit(piece.data(), 4);
+        };
+    }
+    [[nodiscard]] detail::QuadStack<double> settled() {
+        double before = price_in(stack, *work, texels);
+        return detail::settled(*work, stack, texels, cover(), before);
+    }
+};
+
 }  // namespace
 
 TEST(QuadSettle, EveryPieceIsInOneOfTheMapsWhole) {
@@ -205,4 +244,116 @@ TEST(QuadSettle, AnOutlineTouchesItsPointsInEightDirections) {
         for (V2 const& p : piece.point) of_outline = std::fmax(of_outline, glm::dot(way, p));
         EXPECT_NEAR(of_outline, of_points, 1e-12) << k;
     }
+}
+
+TEST(QuadSettle, ASideIsMovedOutToThePointsBeyondItAndNoFarther) {
+    std::array<V2, 4> const corner{V2(-2, -1), V2(3, -2), V2(-1, 4), V2(4, 2)};
+    // The last one is not counted.
+    std::array<V3, 4> const points{V3(-3, 2, 9), V3(1, 1, 9), V3(4, -1, 9), V3(90, 90, 9)};
+    auto sided = detail::sides_of(corner);
+    auto const before = sided;
+    detail::grow(sided, points.data(), 3);
+    for (unsigned k = 0; k < 4; ++k) {
+        double least = 0.0;
+        for (unsigned i = 0; i < 3; ++i)
+            least = std::fmin(least, glm::dot(before.side[k], V3(V2(points[i]) - before.middle, 1.0)));
+        EXPECT_EQ(V2(sided.side[k]), V2(before.side[k]));
+        EXPECT_NEAR(sided.side[k].z, least < 0.0 ? (before.side[k].z - least) * 1.0001 : before.side[k].z, 1e-12) << k;
+    }
+    auto const grown = detail::quad_of(sided);
+    for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(is_in(grown, V2(points[i]))) << i;
+}
+
+TEST(QuadSettle, InNoRoundsNothingMoves) {
+    Field field(8.0, 12.0);
+    detail::take_pieces(*field.work, field.stack, field.cover());
+    detail::Settling<double> settling(*field.work, field.stack, texels);
+    settling.run(0);
+    for (unsigned k = 0; k < 2; ++k) EXPECT_EQ(settling.stack().quad[k].corner, field.stack.quad[k].corner) << k;
+}
+
+TEST(QuadSettle, OnlyTheRatioOfWeightsCounts) {
+    Field field(3.0, 9.0);
+    auto const settled = field.settled();
+    for (auto& sample : field.work->sample) sample.weight *= 0x1p-40;
+    auto const of_light = field.settled();
+    for (unsigned k = 0; k < 2; ++k) EXPECT_EQ(of_light.quad[k].corner, settled.quad[k].corner) << k;
+}
+
+// Beyond the pieces, where the second map alone reaches.
+TEST(QuadSettle, ASampleThatNoPieceHoldsStaysInAMap) {
+    Field field(8.0, 6.0);
+    auto const beyond = [](auto const& piece) { return piece[0].x >= 19.0; };
+    field.pieces.erase(std::remove_if(field.pieces.begin(), field.pieces.end(), beyond), field.pieces.end());
+    auto const settled = field.settled();
+    EXPECT_LT(field.price(settled), 0.85 * field.price(field.stack));
+    for (int i = 0; i < field.work->count; ++i) EXPECT_GE(settled.holder(field.work->sample[unsigned(i)]), 0) << i;
+}
+
+TEST(QuadSettle, APieceIsItsPointsAsTheyAreUpToEight) {
+    Field field(8.0, 10.0);
+    for (int count = 1; count <= 8; ++count) {
+        std::array<V3, 8> points{};
+        for (int i = 0; i < count; ++i) points[unsigned(i)] = V3(1.0 + 0.1 * i * i, 2.0 + 0.3 * i, 7.0);
+        detail::take_pieces(*field.work, field.stack, [&](ViewPart<double> const& part, auto const& visit) {
+            if (part.hi.x == 10.0) visit(points.data(), count);
+        });
+        auto const& piece = field.work->piece[quad_directions];
+        ASSERT_EQ(piece.count, count);
+        for (int i = 0; i < count; ++i) EXPECT_EQ(piece.point[unsigned(i)], V2(points[unsigned(i)])) << i;
+    }
+}
+
+TEST(QuadSettle, AllPiecesAreLookedAtAsLongAsThereIsRoom) {
+    constexpr int rims = 4 * quad_directions, room = max_settling_pieces - rims;
+    for (std::array<int, 4> const& count : {std::array{200, 200, 200, 168}, std::array{1, 0, 5, 3}}) {
+        Strips strips(count);
+        detail::take_pieces(*strips.work, strips.stack, strips.cover());
+        EXPECT_EQ(strips.work->piece_count, rims + count[0] + count[1] + count[2] + count[3]);
+    }
+    Strips one_more({200, 200, 200, 169});
+    detail::take_pieces(*one_more.work, one_more.stack, one_more.cover());
+    EXPECT_EQ(one_more.work->piece_count, rims + 100 + 100 + 100 + 85) << "every other one";
+    // Odd parts round up; the room ends before the last piece.
+    Strips full({385, 385, 383, 383});
+    detail::take_pieces(*full.work, full.stack, full.cover());
+    EXPECT_EQ(full.work->piece_count, rims + room);
+    Strips none_in_the_last({512, 512, 512, 0});
+    detail::take_pieces(*none_in_the_last.work, none_in_the_last.stack, none_in_the_last.cover());
+    EXPECT_EQ(none_in_the_last.work->piece_count, rims + room);
+}
+
+TEST(QuadSettle, AsManyMapsSamplesAndPiecesAsThereIsRoomForAreSettled) {
+    Strips strips({385, 385, 383, 383}, max_search_samples);
+    double const before = price_in(strips.stack, *strips.work, texels);
+    auto const settled = strips.settled();
+    EXPECT_LT(price_in(settled, *strips.work, texels), 0.9 * before);
+    for (auto const& strip : strips.pieces)
+        for (auto const& piece : strip) EXPECT_GE(settled.holder(piece.data(), 4), 0);
+}
+
+// The first map lies around what is seen from nearby and a strip beside the second map, and gives that strip away. Two
+// of three pieces of the first part are in the gap between: they are not looked at before the end.
+TEST(QuadSettle, WhatWasNotLookedAtIsTakenInByTheMapWhoseAreaGrowsLeast) {
+    Gap gap;
+    gap.first.clear();
+    gap.second.clear();
+    gap.work->count = 0;
+    for (int i = 0; i < 500; ++i) {
+        double const x = 0.5 * (i % 17), y = 0.05 * (i / 17 % 20);
+        gap.first.push_back(Gap::piece({x < 8.0 ? x : 11.5, y}, {0.5, 0.05}));
+        gap.first.push_back(Gap::piece({8.0 + 0.1 * (i % 9), 0.2 + 0.05 * (i % 12)}, {0.1, 0.05}));
+        gap.first.push_back(gap.first.back());
+        gap.second.push_back(Gap::piece({12.0 + 0.125 * (i % 8), 0.05 * (i / 8 % 20)}, {0.125, 0.05}));
+        gap.sample(V2(gap.first[unsigned(3 * i)][0]) + V2(0.25, 0.025), 500.0);
+        gap.sample(V2(gap.second.back()[0]) + 0.02, 1000.0);
+    }
+    for (int i = 0; i < 150; ++i) gap.second.push_back(gap.second[unsigned(i)]);
+    double const before = gap.price();
+    gap.settle(0);
+    EXPECT_LT(gap.price(), 0.75 * before);
+    for (auto const& piece : gap.first)
+        EXPECT_EQ(gap.stack.holder(piece.data(), 4), piece[0].x < 11.0 ? 0 : 1) << piece[0].x;
+    for (auto const& piece : gap.second) EXPECT_EQ(gap.stack.holder(piece.data(), 4), 1) << piece[0].x;
+    for (V2 const& corner : gap.stack.quad[1].corner) EXPECT_GT(corner.x, 11.0);
 }
