@@ -922,7 +922,7 @@ template <class T>
     return bits + (0x8000000000000000u - 0x43b0000000000000u);
 }
 [[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
-    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
+    return std::isless(value, 0x1p60L) ? 0 : ~std::uint64_t(0);
 }
 
 // The top bit is set where a value is not from `lo` to `hi`, lo > 0; likewise by its bits.
@@ -2984,8 +2984,9 @@ template <class T>
                       "fit_slice_boxes_of needs views, and room for their maps");
     SHADOWMATH_ASSERT(splits >= 1 && splits <= max_splits, "fit_slice_boxes_of makes one to max_splits maps a view");
     auto const weight = detail::order_of(lambda), free = detail::order_of(border);
-    bool const in_reach = detail::largest_of(basis.x) < T(4) && detail::largest_of(basis.y) < T(4) &&
-                          detail::largest_of(basis.depth) < T(4) && all_finite(basis.x) && all_finite(basis.y) &&
+    // What fit_slice_boxes asks of the light's axes.
+    bool const in_reach = detail::largest_of(basis.x) < T(2) && detail::largest_of(basis.y) < T(2) &&
+                          detail::largest_of(basis.depth) < T(2) && all_finite(basis.x) && all_finite(basis.y) &&
                           all_finite(basis.depth);
     bool const fast = splits == 4 && in_reach && weight > 0 && weight <= detail::order_of(T(1)) &&
                       free >= detail::order_of(T(0)) && free <= detail::order_of(T(0.49));
@@ -3461,12 +3462,13 @@ struct BoundsInBlocks {
         lo[r][i] = less(least + away, lo[r][i]);
         hi[r][i] = more(most - away, hi[r][i]);
     }
+    // Numbers that are too large for the type are the largest.
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
         for (int r = 0; r < 3; ++r) {
             T least = none, most = -none;
             for (int i = 0; i < n; ++i) least = less(least, lo[r][i]), most = more(most, hi[r][i]);
-            all.lo[r] = least, all.hi[r] = most;
+            all.lo[r] = more(least, -none), all.hi[r] = less(most, none);
         }
         return all;
     }
@@ -3599,9 +3601,11 @@ struct BoundsOfBoxes {
             }
         }
         Aabb<T> const merged = so_far.merged();
-        Vec3<T> const offset(matrix[3]);
-        if (!is_empty(merged))
-            bounds = merge(bounds, Aabb<T>{(merged.lo + offset) / matrix[3][3], (merged.hi + offset) / matrix[3][3]});
+        Vec3<T> const offset(matrix[3]), most_of_all(so_far.none);
+        auto const ndc = [&](Vec3<T> const& p) {
+            return glm::clamp((p + offset) / matrix[3][3], -most_of_all, most_of_all);
+        };
+        if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{ndc(merged.lo), ndc(merged.hi)});
     }
 
     // Of each box of a block the corner that is farthest along a row, or nearest: a matter of the row's signs.
@@ -3690,8 +3694,10 @@ struct BoundsOfBoxes {
         for (int i = 0; i < n; ++i) {
             EndProducts<T> const w(below, at, i);
             T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
-            // Corners that do not count may be at w = 0 itself; of those that do this changes none.
-            auto const over = [this](T corner_w) { return T(1) / (corner_w > w_min ? corner_w : w_min); };
+            // Corners that do not count may be at w = 0 itself, and farther out than numbers go: they are taken to the
+            // origin. Of those that do this changes none.
+            T const counts = taken[i] != 0 ? T(1) : T(0);
+            auto const over = [this, counts](T corner_w) { return counts / (corner_w > w_min ? corner_w : w_min); };
             inverse[0][i] = over(xy00 + w.z0), inverse[1][i] = over(xy10 + w.z0);
             inverse[2][i] = over(xy01 + w.z0), inverse[3][i] = over(xy11 + w.z0);
             inverse[4][i] = over(xy00 + w.z1), inverse[5][i] = over(xy10 + w.z1);
@@ -6598,7 +6604,7 @@ struct FourWarps {
         // As wide as a texel and as rounding may be, and a margin.
         Four const noise = (seen.radius + all(glm::length(view.eye))) * all(T(64) * eps);
         Four const texel = largest(seen.x_hi - seen.x_lo, length) * all(T(1) / view.size);
-        Four const least_width = largest(texel, noise);
+        Four const least_width = seen.or_one(largest(texel, noise));
         auto const widen = [&](Four& lo, Four& hi) {
             Four const more = largest(least_width - (hi - lo), zero) * all(T(0.5));
             lo = lo - more, hi = hi + more;

@@ -41,12 +41,13 @@ struct BoundsInBlocks {
         lo[r][i] = less(least + away, lo[r][i]);
         hi[r][i] = more(most - away, hi[r][i]);
     }
+    // Numbers that are too large for the type are the largest.
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
         for (int r = 0; r < 3; ++r) {
             T least = none, most = -none;
             for (int i = 0; i < n; ++i) least = less(least, lo[r][i]), most = more(most, hi[r][i]);
-            all.lo[r] = least, all.hi[r] = most;
+            all.lo[r] = more(least, -none), all.hi[r] = less(most, none);
         }
         return all;
     }
@@ -179,9 +180,11 @@ struct BoundsOfBoxes {
             }
         }
         Aabb<T> const merged = so_far.merged();
-        Vec3<T> const offset(matrix[3]);
-        if (!is_empty(merged))
-            bounds = merge(bounds, Aabb<T>{(merged.lo + offset) / matrix[3][3], (merged.hi + offset) / matrix[3][3]});
+        Vec3<T> const offset(matrix[3]), most_of_all(so_far.none);
+        auto const ndc = [&](Vec3<T> const& p) {
+            return glm::clamp((p + offset) / matrix[3][3], -most_of_all, most_of_all);
+        };
+        if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{ndc(merged.lo), ndc(merged.hi)});
     }
 
     // Of each box of a block the corner that is farthest along a row, or nearest: a matter of the row's signs.
@@ -270,8 +273,10 @@ struct BoundsOfBoxes {
         for (int i = 0; i < n; ++i) {
             EndProducts<T> const w(below, at, i);
             T const xy00 = w.x0 + w.y0, xy10 = w.x1 + w.y0, xy01 = w.x0 + w.y1, xy11 = w.x1 + w.y1;
-            // Corners that do not count may be at w = 0 itself; of those that do this changes none.
-            auto const over = [this](T corner_w) { return T(1) / (corner_w > w_min ? corner_w : w_min); };
+            // Corners that do not count may be at w = 0 itself, and farther out than numbers go: they are taken to the
+            // origin. Of those that do this changes none.
+            T const counts = taken[i] != 0 ? T(1) : T(0);
+            auto const over = [this, counts](T corner_w) { return counts / (corner_w > w_min ? corner_w : w_min); };
             inverse[0][i] = over(xy00 + w.z0), inverse[1][i] = over(xy10 + w.z0);
             inverse[2][i] = over(xy01 + w.z0), inverse[3][i] = over(xy11 + w.z0);
             inverse[4][i] = over(xy00 + w.z1), inverse[5][i] = over(xy10 + w.z1);

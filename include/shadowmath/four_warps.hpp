@@ -155,7 +155,7 @@ struct FourWarps {
         // As wide as a texel and as rounding may be, and a margin.
         Four const noise = (seen.radius + all(glm::length(view.eye))) * all(T(64) * eps);
         Four const texel = largest(seen.x_hi - seen.x_lo, length) * all(T(1) / view.size);
-        Four const least_width = largest(texel, noise);
+        Four const least_width = seen.or_one(largest(texel, noise));
         auto const widen = [&](Four& lo, Four& hi) {
             Four const more = largest(least_width - (hi - lo), zero) * all(T(0.5));
             lo = lo - more, hi = hi + more;

@@ -54,7 +54,7 @@ template <class T>
     return bits + (0x8000000000000000u - 0x43b0000000000000u);
 }
 [[nodiscard]] inline std::uint64_t beyond_reach(long double value) noexcept {
-    return value < 0x1p60L ? 0 : ~std::uint64_t(0);
+    return std::isless(value, 0x1p60L) ? 0 : ~std::uint64_t(0);
 }
 
 // The top bit is set where a value is not from `lo` to `hi`, lo > 0; likewise by its bits.

@@ -206,6 +206,29 @@ TYPED_TEST(BoundsOfManyBoxes, LeaveOutWhatIsEmptyOrNoNumberAndHoldWhatIsFarAway)
     }
 }
 
+// In float the quotients of both would be infinite: of one because nothing of it is ahead, of the other because it is
+// as far out as that.
+TYPED_TEST(BoundsOfManyBoxes, OfWhatIsBeyondNumbersAreTheLargestNumberAndOfWhatIsBehindNone) {
+    using T = TypeParam;
+    this->matrix = from_rows(Vec4<T>(T(1e12), 0, 0, 0), Vec4<T>(0, 1, 0, 0), Vec4<T>(0, 0, 1, 0), Vec4<T>(0, 0, -1, 0));
+    this->w_min = T(1e-15);
+    Aabb<T> const ahead{Vec3<T>(-1, -1, -5), Vec3<T>(1, 1, -4)};
+    this->boxes = {ahead, {Vec3<T>(T(-1e12), -1, 5), Vec3<T>(T(1e12), 1, 6)}};
+    this->expect_merged();
+    EXPECT_LE(this->bounds().hi.x, T(2.6e11));
+    this->boxes = {ahead, {Vec3<T>(T(-1e12), -1, T(-2e-15)), Vec3<T>(T(1e12), 1, T(-1e-15))}};
+    Aabb<T> const alone = projected_bounds(this->matrix, corners(this->boxes[1]), this->w_min), found = this->bounds();
+    EXPECT_NEAR(double(found.lo.x / alone.lo.x), 1, 1e-6);
+    EXPECT_NEAR(double(found.hi.x / alone.hi.x), 1, 1e-6);
+    EXPECT_TRUE(all_finite(found));
+    // Divided once at the end.
+    this->matrix =
+        from_rows(Vec4<T>(T(1e12), 0, 0, 0), Vec4<T>(0, 1, 0, 0), Vec4<T>(0, 0, 1, 0), Vec4<T>(0, 0, 0, T(1e-15)));
+    Aabb<T> const flat = this->bounds();
+    EXPECT_TRUE(all_finite(flat));
+    EXPECT_GE(flat.hi.x, sizeof(T) == 4 ? std::numeric_limits<T>::max() : T(9.9e38));
+}
+
 // What comes after some hundred others is looked at only where it may reach farther.
 TYPED_TEST(BoundsOfManyBoxes, HoldTheOneOfHundredsThatReachesFartherOnOneSide) {
     using T = TypeParam;

@@ -293,7 +293,7 @@ TYPED_TEST(SlicesOfViews, OfALightWithoutUnitAxesOrWithoutRoomAreNowhere) {
         EXPECT_EQ(fitted.count, 0);
         for (std::size_t i = 0; i < views.size(); ++i) EXPECT_TRUE(fitted.is_nowhere(i)) << i;
     };
-    for (T const bad : {no_number, std::numeric_limits<T>::infinity(), T(0x1p61)})
+    for (T const bad : {no_number, std::numeric_limits<T>::infinity(), T(0x1p61), T(3), T(2), T(-2)})
         for (int axis = 0; axis < 9; ++axis) {
             LightBasis<T> basis = some_basis<T>();
             (axis < 3 ? basis.x : axis < 6 ? basis.y : basis.depth)[axis % 3] = bad;
