@@ -134,11 +134,11 @@ TYPED_TEST(SliceWarps, AreMadeOneByOneWhereTheViewReachesBeyond1e12) {
     using T = TypeParam;
     this->view.z_near = T(1e9), this->view.z_far = T(3e11);
     Aabb<T> const world{Vec3<T>(T(-4e11)), Vec3<T>(T(4e11))};
-    Splits<T> const splits = practical_splits(this->view.z_near, this->view.z_far, 6);
-    EXPECT_EQ(fit_slice_warps(this->view, this->sun, splits, T(0.1), world, world, this->options, gl_clip, this->maps),
+    Splits<T> const distant = practical_splits(this->view.z_near, this->view.z_far, 6);
+    EXPECT_EQ(fit_slice_warps(this->view, this->sun, distant, T(0.1), world, world, this->options, gl_clip, this->maps),
               0x3fu);
     for (int i = 0; i < 6; ++i) {
-        ShadowMap<T> const twin = simple_perspective_map(slice(this->view, slice_range(splits, i, T(0.1))), this->sun,
+        ShadowMap<T> const twin = simple_perspective_map(slice(this->view, slice_range(distant, i, T(0.1))), this->sun,
                                                          world, world, this->options, gl_clip);
         EXPECT_EQ(this->maps[i].clip_from_world, twin.clip_from_world) << i;
         EXPECT_EQ(this->maps[i].faults.bits, twin.faults.bits) << i;
