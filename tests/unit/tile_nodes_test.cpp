@@ -116,18 +116,18 @@ TYPED_TEST(TileNodes, IsListedInPartsThatLieTogether) {
         for (bool const upward : {false, true}) {
             this->take(tile_forms[0]);
             typename TestFixture::Kernel::Seen seen;
-            T lo[lane_count], hi[lane_count], depth[lane_count];
+            T lo[lane_count], hi[lane_count], far_end[lane_count];
             for (int k = 0; k < lane_count; ++k) {
                 lo[k] = T(5 + (k % 4 >= 2 ? row.half : 0) + (k == 5 ? row.one : 0));
                 hi[k] = lo[k] + T(0.5);
-                depth[k] = T(k);
+                far_end[k] = T(k);
             }
             auto const all = [](double value) { return TypeParam::all(T(value)); };
             (upward ? seen.lo_y : seen.lo_x) = TypeParam::load(lo);
             (upward ? seen.hi_y : seen.hi_x) = TypeParam::load(hi);
             (upward ? seen.lo_x : seen.lo_y) = all(7);
             (upward ? seen.hi_x : seen.hi_y) = all(7.25);
-            seen.depth = TypeParam::load(depth);
+            seen.depth = TypeParam::load(far_end);
             seen.alive = row.alive;
             this->kernel().insert(this->parts, 3, seen, row.alive, tile_side);
             auto const& b = this->buffer;
@@ -137,7 +137,7 @@ TYPED_TEST(TileNodes, IsListedInPartsThatLieTogether) {
             T least = T(1e9), most = T(-1e9), deepest = T(-1e9);
             for (int k = 0; k < lane_count; ++k) {
                 if ((row.alive >> k & 1u) == 0) continue;
-                least = std::min(least, lo[k]), most = std::max(most, hi[k]), deepest = std::max(deepest, depth[k]);
+                least = std::min(least, lo[k]), most = std::max(most, hi[k]), deepest = std::max(deepest, far_end[k]);
                 bool held = false;
                 for (std::uint32_t n = 0; n < row.nodes; ++n) {
                     T const* const node = this->parts.bounds + 5 * n;
@@ -146,7 +146,7 @@ TYPED_TEST(TileNodes, IsListedInPartsThatLieTogether) {
                     EXPECT_EQ(node[upward ? 1 : 3], T(7.25));
                     T const from = node[upward ? 2 : 0], to = node[upward ? 3 : 1];
                     EXPECT_LE(to - from, row.nodes > 1 ? T(2.0001) : T(4.0001));
-                    held = held || (from <= lo[k] && hi[k] <= to && depth[k] <= node[4]);
+                    held = held || (from <= lo[k] && hi[k] <= to && far_end[k] <= node[4]);
                 }
                 EXPECT_TRUE(held) << k;
             }
