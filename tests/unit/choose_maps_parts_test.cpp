@@ -112,6 +112,8 @@ TEST(ChooseMapsParts, AShapeIsNamedByWhereItsTexelsGrow) {
     EXPECT_EQ(shape(V3(2, 0.15, 0), V3(0, 3, 0), even, 0.96), MapShape::rectangle) << "nearly at right angles";
     EXPECT_EQ(shape(V3(2, 0.3, 0), V3(0, 3, 0), even, 1.0), MapShape::lopsided) << "sheared";
     EXPECT_EQ(shape(V3(2, -0.3, 7), V3(0, 3, -7), even, 1.0), MapShape::lopsided);
+    EXPECT_EQ(shape(V3(0.02, 0.003, 0), V3(0, 0.03, 0), even, 1.0), MapShape::lopsided) << "however large it is";
+    EXPECT_EQ(shape(V3(0.02, 0, 0), V3(0.003, 0.02, 0), even, 1.0), MapShape::lopsided);
     // w grows along y alone, or along x, or along neither.
     EXPECT_EQ(shape(V3(2, 0, 0), V3(0, 3, 0), V3(0, 0.1, 1), 0.9), MapShape::warp);
     EXPECT_EQ(shape(V3(2, 0, 0), V3(0, 3, 0), V3(0.1, 0, 1), 0.5), MapShape::warp);
@@ -382,4 +384,77 @@ TEST(ChooseMapsParts, ADoorIsShutForWhatIsNoSunAndNoPicture) {
     }
     EXPECT_TRUE(door(morning, picture, test::nan_).stop);
     EXPECT_FALSE(door(morning, picture, test::nan_).faults.has(Fault::clamped_option));
+}
+
+// So that depths are not spent on what lies beyond.
+TEST(ChooseMapsParts, TheMapEndsALittleBehindTheLastReceiver) {
+    for (bool const flat : {false, true}) {
+        Tiles tiles(view_of(flat), 5, 4);
+        tiles.see(7, 20.0, 30.0);
+        double first = 1e9, last = -1e9;
+        Aabb<double> casters;
+        V3 const eye = tiles.view.pose.position, along = glm::normalize(morning.direction);
+        for (double const u : {0.0, 1.0})
+            for (double const v : {0.0, 1.0})
+                for (double const depth : {20.0 * (1.0 - 1e-5), 30.0 * (1.0 + 1e-5)}) {
+                    V3 const point = tiles.at(7, u, v, depth);
+                    first = std::fmin(first, glm::dot(along, point - eye));
+                    last = std::fmax(last, glm::dot(along, point - eye));
+                    casters.lo = glm::min(casters.lo, point), casters.hi = glm::max(casters.hi, point);
+                }
+        MapLimits<double> limits = limits_of(1);
+        limits.clip = gl_zero_to_one_clip;
+        auto const chosen =
+            choose_maps<double>(tiles.view, morning, casters, nullptr, 0, tiles.depths(), limits, search());
+        ASSERT_EQ(chosen.count, 1);
+        glm::dmat4 const& m = chosen.at[0].map.clip_from_world;
+        // Where depth is 1, metres beyond the eye: of a map of the sun it grows evenly along the light.
+        double const here = test::ndc(m, eye + along * last).z, there = test::ndc(m, eye + along * (last + 1.0)).z;
+        double const end = last + (1.0 - here) / (there - here);
+        EXPECT_GT(end, last);
+        EXPECT_LT(end, last + 0.01 * (last - first));
+    }
+}
+
+TEST(ChooseMapsParts, TilesOfWhichADepthIsNoNumberAreNone) {
+    for (bool const flat : {false, true}) {
+        Tiles const tiles = hills(flat);
+        auto const samples = middles(tiles);
+        auto const clean = tiles.chosen(limits_of(2), samples);
+        double const inf = test::inf, nan = test::nan_;
+        double const odd[][2] = {{-inf, 12.0}, {10.0, inf}, {-inf, inf}, {nan, 12.0}, {10.0, nan}, {-9.0, -5.0}};
+        for (auto const& depths : odd) {
+            Tiles spoilt = tiles;
+            spoilt.see(3, depths[0], depths[1]);
+            EXPECT_TRUE(laws::same(spoilt.chosen(limits_of(2), samples), clean)) << depths[0] << ' ' << depths[1];
+        }
+    }
+}
+
+TEST(ChooseMapsParts, BoxesBeyondTheLastOrWithoutAnEndAreNone) {
+    ViewVolume<double> const view = view_of(false);
+    V3 const middle = point_at(view, 0.0, 0.0, 30.0);
+    Aabb<double> const small{middle - 4.0, middle + 4.0};
+    auto const of = [&](std::vector<Aabb<double>> const& boxes, int count) {
+        return choose_maps(view, morning, everywhere, boxes.data(), count, limits_of(2), search());
+    };
+    auto const clean = of({small}, 1);
+    ASSERT_GT(clean.count, 0);
+    EXPECT_TRUE(laws::same(of({small, everywhere}, 1), clean)) << "there are no more";
+    Aabb<double> endless = small, beginningless = small;
+    endless.hi.x = test::inf;
+    beginningless.lo.y = -test::inf;
+    EXPECT_TRUE(laws::same(of({endless, small, beginningless}, 3), clean));
+}
+
+TEST(ChooseMapsParts, WhatTheDoorHasMendedIsSaid) {
+    Tiles tiles = hills(false);
+    tiles.view.z_far = test::inf;
+    auto const chosen = tiles.chosen(limits_of(2), middles(tiles));
+    EXPECT_GT(chosen.count, 0);
+    EXPECT_TRUE(chosen.faults.has(Fault::far_clamped));
+    Aabb<double> const box{V3(-50, 0, -50), V3(50, 1, 50)};
+    auto const of_box = choose_maps(tiles.view, morning, everywhere, &box, 1, limits_of(9), search());
+    EXPECT_TRUE(of_box.faults.has(Fault::far_clamped));
+    EXPECT_TRUE(of_box.faults.has(Fault::count_clamped));
 }
