@@ -24,67 +24,69 @@ using E4 = std::array<Exact, 4>;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-// NOTE: T and Real are parameters, as what the tests name alike would shadow a member.
-template <class Lanes, class T = typename Lanes::Scalar, class Real = Wider<T>>
+template <class Lanes>
 struct CastersIn : ::testing::Test {
+    using Number = typename Lanes::Scalar;
+    using WideNumber = Wider<Number>;
     using Batch = detail::CasterBatch<Lanes>;
 
     std::mt19937 bits{20021201};
-    IrregularBuffer<T> buffer;
-    PixelFrame<Real> frame;
-    PixelLight<Real> light;
-    Casters<T> casters;
-    std::vector<T> numbers;
+    IrregularBuffer<Number> buffer;
+    PixelFrame<WideNumber> frame;
+    PixelLight<WideNumber> light;
+    Casters<Number> casters;
+    std::vector<Number> numbers;
     std::vector<std::uint32_t> indices;
-    T w_floor = T(0.25);
+    Number w_floor = Number(0.25);
 
     CastersIn() {
-        ViewVolume<T> const eye =
-            perspective_view<T>(pose_looking(Vec3<T>(1, 2, 3), Vec3<T>(T(0.3), T(-0.2), T(-1)), Vec3<T>(0, 1, 0)), T(1),
-                                T(1.5), T(0.1), T(100));
-        see(eye, directional(Vec3<T>(T(0.3), T(-1), T(0.2))));
+        ViewVolume<Number> const eye = perspective_view<Number>(
+            pose_looking(Vec3<Number>(1, 2, 3), Vec3<Number>(Number(0.3), Number(-0.2), Number(-1)),
+                         Vec3<Number>(0, 1, 0)),
+            Number(1), Number(1.5), Number(0.1), Number(100));
+        see(eye, directional(Vec3<Number>(Number(0.3), Number(-1), Number(0.2))));
         // A warped map: w is from -0.2 to 2.2 over the scene.
-        buffer.row[0] = Vec4<T>(T(0.9), T(0.2), T(-0.1), T(30));
-        buffer.row[1] = Vec4<T>(T(-0.2), T(0.8), T(0.3), T(25));
-        buffer.row[2] = Vec4<T>(T(0.01), T(0.02), T(-0.015), T(0.5));
-        buffer.row[3] = Vec4<T>(T(0.02), T(0.01), T(0.03), T(1));
-        buffer.texel_error = T(0.02);
-        buffer.texel_error_here = T(0.3);
-        buffer.depth_error = T(0.0015);
-        buffer.depth_error_here = T(0.04);
-        buffer.contact_reach = T(5);
-        buffer.contact_ray = T(3);
+        buffer.row[0] = Vec4<Number>(Number(0.9), Number(0.2), Number(-0.1), Number(30));
+        buffer.row[1] = Vec4<Number>(Number(-0.2), Number(0.8), Number(0.3), Number(25));
+        buffer.row[2] = Vec4<Number>(Number(0.01), Number(0.02), Number(-0.015), Number(0.5));
+        buffer.row[3] = Vec4<Number>(Number(0.02), Number(0.01), Number(0.03), Number(1));
+        buffer.texel_error = Number(0.02);
+        buffer.texel_error_here = Number(0.3);
+        buffer.depth_error = Number(0.0015);
+        buffer.depth_error_here = Number(0.04);
+        buffer.contact_reach = Number(5);
+        buffer.contact_ray = Number(3);
         open();
     }
-    void see(ViewVolume<T> const& eye, Light<T> const& from) {
+    void see(ViewVolume<Number> const& eye, Light<Number> const& from) {
         buffer.frame = pixel_frame(eye, 48, 32);
-        frame = frame_in<Real>(buffer.frame);
-        Light<Real> wide;
+        frame = frame_in<WideNumber>(buffer.frame);
+        Light<WideNumber> wide;
         wide.kind = from.kind;
-        wide.direction = Vec3<Real>(from.direction);
-        wide.position = Vec3<Real>(from.position);
+        wide.direction = Vec3<WideNumber>(from.direction);
+        wide.position = Vec3<WideNumber>(from.position);
         light = pixel_light(frame, wide);
     }
     // Receivers everywhere.
     void open() {
-        buffer.least_x = buffer.least_y = -std::numeric_limits<T>::max();
-        buffer.most_x = buffer.most_y = buffer.most_depth = std::numeric_limits<T>::max();
+        buffer.least_x = buffer.least_y = -std::numeric_limits<Number>::max();
+        buffer.most_x = buffer.most_y = buffer.most_depth = std::numeric_limits<Number>::max();
     }
     double in(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(bits); }
     std::uint32_t below(std::uint32_t end) { return std::uniform_int_distribution<std::uint32_t>(0, end - 1)(bits); }
 
     void throw_vertices(std::uint32_t count, int stride, double spread) {
-        numbers.assign(std::size_t(count) * std::size_t(stride) + 8, T(-77));
+        numbers.assign(std::size_t(count) * std::size_t(stride) + 8, Number(-77));
         for (std::uint32_t v = 0; v < count; ++v)
             for (int axis = 0; axis < 3; ++axis)
-                numbers[v * std::size_t(stride) + std::size_t(axis)] = T(in(-spread, spread));
+                numbers[v * std::size_t(stride) + std::size_t(axis)] = Number(in(-spread, spread));
         casters = {};
         casters.position = numbers.data();
         casters.stride = stride;
         casters.vertex_count = count;
         casters.triangle_count = count / 3;
     }
-    [[nodiscard]] T* vertex(std::uint32_t v) { return numbers.data() + v * std::size_t(casters.stride); }
+    [[nodiscard]] Number* vertex(std::uint32_t v) { return numbers.data() + v * std::size_t(casters.stride); }
     [[nodiscard]] detail::CasterKernel<Lanes> kernel() const { return {buffer, casters, frame, light, w_floor}; }
 
     struct Found {
@@ -137,12 +139,12 @@ struct CastersIn : ::testing::Test {
         for (E4 const& at : kept) depth = std::fmin(depth, at[2] / at[3]);
         found.depth =
             least_w < floor
-                ? Exact(std::numeric_limits<T>::lowest())
+                ? Exact(std::numeric_limits<Number>::lowest())
                 : depth - steepest * (found.reach * Exact(buffer.depth_error) + Exact(buffer.depth_error_here));
         return found;
     }
-    static void expect_near(T value, Exact wanted) {
-        Exact const slack = 64 * Exact(std::numeric_limits<T>::epsilon()) * (1 + std::fabs(wanted)) * 10;
+    static void expect_near(Number value, Exact wanted) {
+        Exact const slack = 64 * Exact(std::numeric_limits<Number>::epsilon()) * (1 + std::fabs(wanted)) * 10;
         EXPECT_NEAR(double(Exact(value) - wanted), 0.0, double(slack)) << value << ", not " << double(wanted);
     }
 };

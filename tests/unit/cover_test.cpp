@@ -23,18 +23,17 @@ using Exact = long double;
 
 constexpr int tiles_across = 3, tile_rows_of_all = 7, tile_count = tiles_across * tile_rows_of_all;
 
-// NOTE: T is a parameter, as what the tests name alike would shadow a member.
-template <class Lanes, class T = typename Lanes::Scalar>
+template <class Lanes>
 struct CoverIn : ::testing::Test {
-    using Real = Wider<T>;
-    using Raised = detail::RaisedTriangle<T>;
+    using Number = typename Lanes::Scalar;
+    using WideNumber = Wider<Number>;
+    using Raised = detail::RaisedTriangle<Number>;
     using Queue = typename detail::CoverKernel<Lanes>::Queue;
 
     std::mt19937 bits{20021201};
-    std::uint32_t word() { return static_cast<std::uint32_t>(bits()); }
-    IrregularBuffer<T> buffer;
-    PixelFrame<Real> frame;
-    std::vector<T> surface = std::vector<T>(tile_count * tile_scalars);
+    IrregularBuffer<Number> buffer;
+    PixelFrame<WideNumber> frame;
+    std::vector<Number> surface = std::vector<Number>(tile_count * tile_scalars);
     std::vector<std::uint32_t> state = std::vector<std::uint32_t>(tile_count * tile_words);
     std::vector<Raised> raised = std::vector<Raised>(chunk_room);
     std::unique_ptr<Queue> queue = std::make_unique<Queue>();
@@ -48,16 +47,16 @@ struct CoverIn : ::testing::Test {
         buffer.surface = surface.data();
         buffer.state = state.data();
         for (int tile = 0; tile < tile_count; ++tile) {
-            T* const of = surface.data() + tile * tile_scalars;
+            Number* const of = surface.data() + tile * tile_scalars;
             for (int k = 0; k < lane_count; ++k) {
-                of[k] = T(in(-0.1, 0.1));
-                of[lane_count + k] = T(in(-0.05, 0.05));
-                of[2 * lane_count + k] = T(in(-0.05, 0.05));
+                of[k] = Number(in(-0.1, 0.1));
+                of[lane_count + k] = Number(in(-0.05, 0.05));
+                of[2 * lane_count + k] = Number(in(-0.05, 0.05));
             }
-            of[tile_q_at] = T(in(0.2, 2));
+            of[tile_q_at] = Number(in(0.2, 2));
             for (int i = 0; i < 5; ++i) {
-                of[key_base_at + i] = T(in(-5, 0));
-                of[key_step_at + i] = T(in(0, 0.03));
+                of[key_base_at + i] = Number(in(-5, 0));
+                of[key_step_at + i] = Number(in(0, 0.03));
             }
             std::uint32_t* const words = state.data() + tile * tile_words;
             auto* const keys = reinterpret_cast<unsigned char*>(words);
@@ -68,22 +67,23 @@ struct CoverIn : ::testing::Test {
         }
         for (Raised& one : raised) {
             // Four lines about a place among the tiles; two of three are wide apart.
-            Real const x = in(-20, -6), y = in(-14, 12), apart = in(0, 1) < 0.7 ? 6 : 1;
+            WideNumber const x = in(-20, -6), y = in(-14, 12), apart = in(0, 1) < 0.7 ? 6 : 1;
             for (int i = 0; i < 4; ++i) {
                 double const turn = 1.5707963 * i + in(-0.5, 0.5);
                 one.x[i] = std::cos(turn);
                 one.y[i] = std::sin(turn);
                 one.b[i] = in(-1, 1);
-                one.a[i] = Real(apart * in(0, 3)) - one.x[i] * x - one.y[i] * y - one.b[i];
-                one.across[i] = T(one.x[i]);
-                one.upward[i] = T(one.y[i]);
-                one.by_q[i] = T(one.b[i]);
+                one.a[i] = WideNumber(apart * in(0, 3)) - one.x[i] * x - one.y[i] * y - one.b[i];
+                one.across[i] = Number(one.x[i]);
+                one.upward[i] = Number(one.y[i]);
+                one.by_q[i] = Number(one.b[i]);
             }
-            for (T& key : one.keys) key = T(in(-0.5, 6));
+            for (Number& key : one.keys) key = Number(in(-0.5, 6));
         }
     }
     double in(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(bits); }
     std::uint32_t below(std::uint32_t end) { return std::uniform_int_distribution<std::uint32_t>(0, end - 1)(bits); }
+    std::uint32_t word() { return static_cast<std::uint32_t>(bits()); }
     [[nodiscard]] detail::CoverKernel<Lanes> kernel() { return {buffer, frame}; }
 
     void enqueue(std::uint32_t tile, std::vector<std::uint32_t> const& slots) {
@@ -91,7 +91,7 @@ struct CoverIn : ::testing::Test {
         kernel().enqueue(tile, std::uint32_t(slots.size()), *queue);
     }
     [[nodiscard]] bool reaches(Raised const& one, std::uint32_t tile, int k) const {
-        T const* const of = surface.data() + tile * tile_scalars;
+        Number const* const of = surface.data() + tile * tile_scalars;
         auto const* const keys = reinterpret_cast<unsigned char const*>(state.data() + tile * tile_words);
         for (int i = 0; i < 5; ++i)
             if (!(Exact(one.keys[i]) >= Exact(keys[16 * i + k]) * of[key_step_at + i] + of[key_base_at + i]))
@@ -102,10 +102,10 @@ struct CoverIn : ::testing::Test {
         std::uint32_t inside = 0, near_a_plane = 0;
     };
     [[nodiscard]] Samples slow(Raised const& one, std::uint32_t tile, int k) const {
-        T const* const of = surface.data() + tile * tile_scalars;
+        Number const* const of = surface.data() + tile * tile_scalars;
         Samples samples;
         for (int s = 0; s < samples_per_pixel; ++s) {
-            Exact const u = Exact(pixel_samples<T>.u[s]), v = Exact(pixel_samples<T>.v[s]);
+            Exact const u = Exact(pixel_samples<Number>.u[s]), v = Exact(pixel_samples<Number>.v[s]);
             Exact const x = Exact(int(tile) % tiles_across * 4 + k % 4 + 5) + u - 24.5L;
             Exact const y = Exact(int(tile) / tiles_across * 4 + k / 4 + 3) + v - 17.0L;
             Exact const q = Exact(of[tile_q_at]) + Exact(of[k]) + Exact(of[16 + k]) * u + Exact(of[32 + k]) * v;

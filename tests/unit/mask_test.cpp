@@ -96,3 +96,21 @@ TEST(HalfPlaneTable, KnowsWhatHasNoBorderInThePixel) {
     EXPECT_EQ(half_plane_mask(table, PixelLine<double>{-5.0, 1.0, 1.0}), 0u);
     EXPECT_EQ(sizeof table, 4096u);
 }
+
+// Half a step of radius: that of the angle is nothing here.
+TEST(HalfPlaneTable, AlongItsOwnAnglesALineMovesByHalfAStepOfRadius) {
+    HalfPlaneTable const table = half_plane_table();
+    double const half_step = 0.70710678118654752 / 64.0;
+    PixelSamples<double> const& at = pixel_samples<double>;
+    for (int k = 0; k < table_steps; ++k)
+        for (int i = -70; i <= 70; ++i) {
+            double const angle = (k + 0.5) * 6.283185307179586 / table_steps, r = 0.01 * i + 0.0013;
+            double const x = std::cos(angle), y = std::sin(angle);
+            std::uint32_t const mask = half_plane_mask(table, PixelLine<double>{-r - 0.5 * (x + y), x, y});
+            for (int s = 0; s < samples_per_pixel; ++s) {
+                double const inside = x * (at.u[s] - 0.5) + y * (at.v[s] - 0.5) - r;
+                if (std::abs(inside) < half_step + 1e-6) continue;
+                EXPECT_EQ((mask >> s & 1u) != 0, inside > 0.0) << k << ' ' << r << ' ' << s;
+            }
+        }
+}

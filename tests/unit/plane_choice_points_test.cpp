@@ -195,21 +195,6 @@ TEST(MedianPlane, IsAtTheMedianOfTheHeightsOfPointsInAnyOrder) {
     }
 }
 
-// As the last call left the stack, that of no points begins.
-TEST(MedianPlane, OfNoPointsAfterOthersIsThroughTheOrigin) {
-    V3 const eye(3, 6, 0);
-    ViewVolume<double> const view = view_from(eye);
-    Points const points(max_samples, SurfacePoint<double>{eye + V3(0, 1, -9), up});
-    double const some = median_plane(up, points.data(), max_samples).offset;
-    double const none = median_plane(up, points.data(), 0).offset;
-    double const some_weighted = weighted_median_plane(view, up, points.data(), max_samples).offset;
-    double const none_weighted = weighted_median_plane(view, up, points.data(), 0).offset;
-    EXPECT_EQ(some, -7.0);
-    EXPECT_EQ(none, 0.0);
-    EXPECT_EQ(some_weighted, -7.0);
-    EXPECT_EQ(none_weighted, 0.0);
-}
-
 TEST(MedianPlane, WithWeightsLooksAtEveryPointOfAsManyAsItHolds) {
     V3 const eye(0, 6, 0);
     Points points;

@@ -21,7 +21,9 @@ class X86Lanes : public ::testing::Test {
 protected:
     using Array = std::array<float, 16>;
 
-    std::mt19937 bits{20021201};
+    std::mt19937 random{20021201};
+
+    std::uint32_t word() { return static_cast<std::uint32_t>(random()); }
 
     // Small numbers, of which some are alike and sums of products are exact; if asked for, some are NaN or infinite.
     Array numbers(bool any = false) {
@@ -29,8 +31,8 @@ protected:
                                   -std::numeric_limits<float>::infinity(), -0.0f};
         Array made;
         for (float& one : made) {
-            one = float(int(bits() % 65) - 32) / 4.0f;
-            if (any && bits() % 4 == 0) one = odd[bits() % 4];
+            one = float(int(word() % 65) - 32) / 4.0f;
+            if (any && word() % 4 == 0) one = odd[word() % 4];
         }
         return made;
     }
@@ -86,8 +88,8 @@ TYPED_TEST(X86Lanes, DoWhatAnArrayDoes) {
         same(with_sign_of(a, b), with_sign_of(p, q), "sign");
         auto const signs = this->stored(with_sign_of(c, b));
         for (std::size_t k = 0; k < 16; ++k) EXPECT_EQ(std::signbit(signs[k]), std::signbit(y[k]));
-        auto const which = static_cast<std::uint32_t>(this->bits() & 0xffffu);
-        same(chosen(which, a, b), chosen(which, p, q), "chosen");
+        std::uint32_t const bits = this->word() & 0xffffu;
+        same(chosen(bits, a, b), chosen(bits, p, q), "chosen");
         EXPECT_EQ(at_least(a, b), at_least(p, q));
         EXPECT_EQ(smallest(c), smallest(r));
         EXPECT_EQ(largest(c), largest(r));
@@ -103,7 +105,7 @@ TYPED_TEST(X86Lanes, PackBytesAndWordsAsAnArrayDoes) {
     using Plain = PlainLanes<float>;
     for (int i = 0; i < 100; ++i) {
         std::array<float, 16> x;
-        for (float& one : x) one = float(int(this->bits() % 4000) - 800) / 8.0f;
+        for (float& one : x) one = float(int(this->word() % 4000) - 800) / 8.0f;
         std::array<unsigned char, 18> bytes, wanted;
         bytes.fill(77);
         wanted.fill(77);
@@ -119,7 +121,7 @@ TYPED_TEST(X86Lanes, PackBytesAndWordsAsAnArrayDoes) {
         TypeParam::load(x.data()).store_words(words.data() + 1);
         Plain::load(x.data()).store_words(all.data() + 1);
         EXPECT_EQ(words, all);
-        std::uint32_t const some = i == 0 ? 0xffffu : this->bits() & 0xffffu;
+        std::uint32_t const some = i == 0 ? 0xffffu : this->word() & 0xffffu;
         std::array<std::uint32_t, 17> to{}, as{};
         EXPECT_EQ(TypeParam::compress(some, words.data() + 1, to.data()),
                   Plain::compress(some, words.data() + 1, as.data()));
@@ -134,10 +136,10 @@ TYPED_TEST(X86Lanes, GatherAsAnArrayDoes) {
     std::array<float, 100> from;
     for (std::size_t i = 0; i < 100; ++i) from[i] = float(i) + 0.5f;
     for (int i = 0; i < 50; ++i) {
-        float const* const row[4] = {&from[this->bits() % 80], &from[this->bits() % 80], &from[this->bits() % 80],
-                                     &from[this->bits() % 80]};
+        float const* const row[4] = {&from[this->word() % 80], &from[this->word() % 80], &from[this->word() % 80],
+                                     &from[this->word() % 80]};
         this->expect_same(this->stored(TypeParam::rows(row)), this->stored(Plain::rows(row)), "rows");
-        auto const step = static_cast<std::uint32_t>(this->bits() % 97);
+        std::uint32_t const step = this->word() % 97;
         auto const at = [&](int k) { return from.data() + (std::uint32_t(k) * step + 5) % 98; };
         TypeParam triples[3], points[3];
         Plain plain_triples[3], plain_points[3];
@@ -174,7 +176,7 @@ TYPED_TEST(X86Lanes, WidenWhatFloatsCancelIn) {
         EXPECT_EQ(at_least(a, b), at_least(p, q));
         std::array<double, 40> numbers;
         for (std::size_t k = 0; k < 40; ++k) numbers[k] = double(k) + 1.0 / 3.0;
-        double const* const row[4] = {&numbers[0], &numbers[this->bits() % 36], &numbers[7], &numbers[36]};
+        double const* const row[4] = {&numbers[0], &numbers[this->word() % 36], &numbers[7], &numbers[36]};
         same(Wide::rows(row), Plain::rows(row), "rows");
         this->expect_same(this->stored(TypeParam::narrow(Wide::rows(row))),
                           this->stored(PlainLanes<float>::narrow(Plain::rows(row))), "narrow");
