@@ -1,75 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// The parts of a choice one by one, on scenes of a few tiles, boxes and samples: what is looked at, what a map must
-// hold and no more, and the figures that it comes with.
+// What a map of a few tiles or boxes must hold and no more, and the figures that it comes with.
 #include "tests/laws/choose_maps.hpp"
-#include "tests/support/town.hpp"
+#include "tests/support/few_tiles.hpp"
 
 #include <shadowmath/choose_maps.hpp>
 #include <shadowmath/footprint.hpp>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <vector>
 
 using namespace shadowmath;
-using test::V2;
-using test::V3;
+using namespace shadowmath::test;
 
 namespace {
-
-Light<double> const morning = directional(V3(0.8, -0.5, 0.4));
-Aabb<double> const everywhere{V3(-300), V3(300)};
-
-ViewVolume<double> view_of(bool flat) {
-    auto const pose = pose_looking(V3(3, 20, 5), V3(0.4, -0.6, -1), V3(0, 1, 0));
-    ViewVolume<double> view =
-        flat ? orthographic_view(pose, -12.0, 20.0, -9.0, 7.0, 0.5, 90.0) : perspective_view(pose, 0.9, 1.6, 0.5, 90.0);
-    view.left *= 0.8;
-    return view;
-}
-
-MapSearch<double>& search() {
-    static auto const work = std::make_unique<MapSearch<double>>();
-    return *work;
-}
-
-// Tiles of which nothing is seen until they are given depths.
-struct Tiles {
-    ViewVolume<double> view;
-    int width, height;
-    std::vector<double> nearest, farthest;
-
-    Tiles(ViewVolume<double> const& of, int across, int upward)
-        : view(of), width(across), height(upward), nearest(std::size_t(across * upward), 1.0),
-          farthest(std::size_t(across * upward), 0.0) {}
-
-    void see(int tile, double from, double to) {
-        nearest[std::size_t(tile)] = from;
-        farthest[std::size_t(tile)] = to;
-    }
-    [[nodiscard]] DepthTiles<double> depths() const { return {nearest.data(), farthest.data(), width, height}; }
-    // A place of a tile, from 0 to 1 across and upward.
-    [[nodiscard]] V3 at(int tile, double u, double v, double depth) const {
-        double const x = (tile % width + u) / width, y = (tile / width + v) / height;
-        return point_at(view, view.left + (view.right - view.left) * x, view.bottom + (view.top - view.bottom) * y,
-                        depth);
-    }
-    [[nodiscard]] ChosenMaps<double> chosen(MapLimits<double> const& limits,
-                                            std::vector<SurfacePoint<double>> const& samples = {}) const {
-        return choose_maps(view, morning, everywhere, samples.data(), int(samples.size()), depths(), limits, search());
-    }
-};
-
-MapLimits<double> limits_of(int maps) {
-    MapLimits<double> limits;
-    limits.maps = maps;
-    return limits;
-}
 
 // How far from the middle the farthest of the points is in the map, of its half width less the margin.
 double reach_of(ShadowMap<double> const& map, std::vector<V3> const& points) {
@@ -79,23 +25,6 @@ double reach_of(ShadowMap<double> const& map, std::vector<V3> const& points) {
         farthest = std::fmax(farthest, std::fmax(std::abs(at.x), std::abs(at.y)) / at.w);
     }
     return farthest / (1.0 - 2.0 * 2.0 / 1024.0);
-}
-
-// Samples of a tile's middle, at a depth between its two.
-std::vector<SurfacePoint<double>> middles(Tiles const& tiles) {
-    std::vector<SurfacePoint<double>> samples;
-    for (int i = 0; i < tiles.width * tiles.height; ++i) {
-        double const from = tiles.nearest[std::size_t(i)], to = tiles.farthest[std::size_t(i)];
-        if (from <= to) samples.push_back({tiles.at(i, 0.5, 0.5, 0.3 * from + 0.7 * to), V3(0, 1, 0)});
-    }
-    return samples;
-}
-
-Tiles hills(bool flat) {
-    Tiles tiles(view_of(flat), 6, 4);
-    for (int i = 0; i < 24; ++i)
-        if (i % 7 != 3) tiles.see(i, 10.0 + i % 6 + i / 6 * 12, 11.0 + i % 6 + i / 6 * 13);
-    return tiles;
 }
 
 }  // namespace
@@ -124,94 +53,19 @@ TEST(ChooseMapsParts, AShapeIsNamedByWhereItsTexelsGrow) {
     EXPECT_EQ(shape(V3(2, 2, 0), V3(-2, 2, 0), V3(0.1, 0, 1), 0.5), MapShape::lopsided) << "along neither";
 }
 
-// One of each so many in turn, not always the same one; those that count for nothing are none of them.
-TEST(ChooseMapsParts, SamplesAreTakenEvenlyFromAllThatCount) {
-    ViewVolume<double> const view = view_of(false);
-    LightSampler<double> const sampler = light_sampler(view, morning, V2(1920, 1080), V2(40, 25));
-    // Of a surface that the eye sees and the light does not.
-    V3 const away = glm::normalize(glm::normalize(morning.direction) - view.pose.forward * 2.0);
-    for (int const asked : {0, 1, 9, 1023, 1024, 1025, 2048, 2049, 5000}) {
-        std::vector<SurfacePoint<double>> samples;
-        for (int i = 0; i < asked; ++i) {
-            samples.push_back({point_at(view, 0.0, 0.0, 1.0 + 0.01 * i), V3(0, 1, 0)});
-            if (i % 3 == 0) samples.push_back({point_at(view, 0.0, 0.0, -5.0), V3(0, 1, 0)});
-            if (i % 5 == 0) samples.push_back({point_at(view, 0.0, 0.0, 7.0), away});
-        }
-        detail::take_samples(search(), sampler, samples.data(), int(samples.size()));
-        int const stride = (asked + 1023) / 1024;
-        int wanted = 0;
-        std::vector<int> places;
-        for (int i = 0; i < asked; ++i) {
-            if (i % stride != i / stride * 7 % stride) continue;
-            ASSERT_LT(wanted, search().count);
-            EXPECT_NEAR(search().sample[unsigned(wanted)].seen.z, 1.0 + 0.01 * i, 1e-9) << asked;
-            EXPECT_EQ(search().sample[unsigned(wanted++)].weight, 1.0);
-            places.push_back(i % stride);
-        }
-        EXPECT_EQ(search().count, wanted) << asked;
-        EXPECT_LE(search().count, max_search_samples);
-        EXPECT_TRUE(stride <= 2 || places[0] != places[1]);
-    }
-}
-
-TEST(ChooseMapsParts, TilesWithoutSamplesAreTakenAtTheirMiddles) {
-    for (bool const flat : {false, true}) {
-        Tiles tiles(view_of(flat), 7, 5);
-        // As in the comment of DepthTiles; and what lies beyond the view, or is no number.
-        double const inf = test::inf, nan = test::nan_;
-        double const depths[][2] = {{10, 12},  {10, 10}, {12, 10}, {nan, 12}, {10, nan},  {-inf, 12}, {10, inf},
-                                    {0.1, 40}, {60, 99}, {90, 99}, {91, 99},  {0.1, 0.5}, {0.1, 0.4}, {-5, 3}};
-        double const middles[] = {11, 10, 0, 0, 0, 0, 0, 20.05, 79.5, 90, 0, 0.5, 0, 0.5};
-        for (int i = 0; i < 35; ++i) tiles.see(i, depths[i % 14][0], depths[i % 14][1]);
-        LightSampler<double> const sampler = light_sampler(tiles.view, morning, V2(1920, 1080), V2(7, 5));
-        detail::take_tiles(search(), sampler, morning, tiles.depths());
-        int taken = 0;
-        for (int i = 0; i < 35; ++i) {
-            double const depth = middles[i % 14];
-            if (depth == 0.0) continue;
-            ASSERT_LT(taken, search().count);
-            LightSample<double> const& sample = search().sample[unsigned(taken++)];
-            V3 const point = tiles.at(i, 0.5, 0.5, depth), from_eye = point - tiles.view.pose.position;
-            EXPECT_NEAR(sample.seen.z, depth, 1e-9) << i;
-            EXPECT_NEAR(sample.place.x, glm::dot(sampler.basis.x, from_eye), 1e-9) << i;
-            EXPECT_NEAR(sample.place.y, glm::dot(sampler.basis.y, from_eye), 1e-9) << i;
-            EXPECT_EQ(sample.weight, 1.0);
-        }
-        EXPECT_EQ(search().count, taken);
-    }
-}
-
-TEST(ChooseMapsParts, OfMoreTilesThanASearchHoldsOneOfEachFewIsTaken) {
-    for (int const width : {32, 33, 64, 100}) {
-        Tiles tiles(view_of(false), width, 32);
-        for (int i = 0; i < width * 32; ++i) tiles.see(i, 5.0 + 0.01 * i, 5.0 + 0.01 * i);
-        LightSampler<double> const sampler = light_sampler(tiles.view, morning, V2(1920, 1080), V2(width, 32));
-        detail::take_tiles(search(), sampler, morning, tiles.depths());
-        int const stride = (width * 32 + 1023) / 1024;
-        int taken = 0;
-        for (int i = 0; i < width * 32; ++i) {
-            if (i % stride != i / stride * 7 % stride) continue;
-            ASSERT_LT(taken, search().count);
-            EXPECT_NEAR(search().sample[unsigned(taken++)].seen.z, 5.0 + 0.01 * i, 1e-9);
-        }
-        EXPECT_EQ(search().count, taken);
-        EXPECT_LE(taken, max_search_samples);
-    }
-}
-
 // Whichever tile is the only one: all of it, from its nearest to its farthest depth, and nothing more.
 TEST(ChooseMapsParts, AMapOfOneTileIsAsLargeAsThatTile) {
     for (bool const flat : {false, true})
         for (bool const with_sample : {false, true})
             for (int i = 0; i < 20; ++i) {
-                Tiles tiles(view_of(flat), 5, 4);
+                FewTiles tiles(view_of_tiles(flat), 5, 4);
                 double const from = i % 3 == 0 ? 10.0 : 0.1, to = i % 2 == 0 ? 40.0 : 1000.0;
                 tiles.see(i, from, to);
                 std::vector<SurfacePoint<double>> samples;
                 if (with_sample) samples.push_back({tiles.at(i, 0.4, 0.7, 15.0), V3(0, 1, 0)});
                 auto const chosen = tiles.chosen(limits_of(1), samples);
                 ASSERT_EQ(chosen.count, 1);
-                EXPECT_TRUE(laws::are_maps_of(chosen, morning, gl_clip));
+                EXPECT_TRUE(laws::are_maps_of(chosen, sun_of_tiles, gl_clip));
                 std::vector<V3> corners;
                 for (double const u : {0.0, 1.0})
                     for (double const v : {0.0, 1.0})
@@ -236,9 +90,10 @@ TEST(ChooseMapsParts, AMapOfOneTileIsAsLargeAsThatTile) {
 }
 
 TEST(ChooseMapsParts, AMapOfOneBoxIsAsLargeAsWhatIsSeenOfIt) {
+    int met = 0;
     for (bool const flat : {false, true})
         for (int i = 0; i < 20; ++i) {
-            ViewVolume<double> const view = view_of(flat);
+            ViewVolume<double> const view = view_of_tiles(flat);
             V3 const middle = point_at(view, (flat ? 9.0 : 0.4) * std::sin(double(i)),
                                        (flat ? 4.0 : 0.2) * std::cos(double(i)), 30.0 + i);
             // A small one, wholly in view.
@@ -246,21 +101,24 @@ TEST(ChooseMapsParts, AMapOfOneBoxIsAsLargeAsWhatIsSeenOfIt) {
             Aabb<double> const none{V3(1), V3(0)},
                 behind{view.pose.position + V3(0, 30, 30), view.pose.position + V3(9, 40, 40)};
             Aabb<double> const boxes[] = {none, box, behind};
-            auto const chosen = choose_maps(view, morning, everywhere, boxes, 3, limits_of(1), search());
+            auto const chosen = choose_maps(view, sun_of_tiles, everywhere, boxes, 3, limits_of(1), search_of_tiles());
             if (chosen.count == 0) continue;  // no ray of the guess meets it
-            EXPECT_TRUE(laws::are_maps_of(chosen, morning, gl_clip));
+            ++met;
+            EXPECT_TRUE(laws::are_maps_of(chosen, sun_of_tiles, gl_clip));
             std::vector<V3> points;
             for (V3 const& corner : corners(box)) points.push_back(corner);
             for (V3 const& corner : points) EXPECT_GE(laws::server_of(chosen, limits_of(1), corner, 1e-6), 0) << i;
             EXPECT_GT(reach_of(chosen.at[0].map, points), 0.98);
         }
+    EXPECT_GT(met, 10);
 }
 
 // The map's sides are the view's where boxes go on beyond it.
 TEST(ChooseMapsParts, ABoxAroundTheViewIsCutToIt) {
     for (bool const flat : {false, true}) {
-        ViewVolume<double> const view = view_of(flat);
-        auto const chosen = choose_maps(view, morning, everywhere, &everywhere, 1, limits_of(1), search());
+        ViewVolume<double> const view = view_of_tiles(flat);
+        auto const chosen =
+            choose_maps(view, sun_of_tiles, everywhere, &everywhere, 1, limits_of(1), search_of_tiles());
         ASSERT_EQ(chosen.count, 1);
         std::vector<V3> points;
         for (V3 const& corner : corners(view)) points.push_back(corner);
@@ -281,12 +139,12 @@ TEST(ChooseMapsParts, ItsFiguresAreThoseOfTheMapsDrawn) {
     for (bool const flat : {false, true}) {
         double one_map = 0.0;
         for (int const maps : {1, 2, 3, 4}) {
-            Tiles const tiles = hills(flat);
+            FewTiles const tiles = hills(flat);
             auto const samples = middles(tiles);
             MapLimits<double> const limits = limits_of(maps);
             auto const chosen = tiles.chosen(limits, samples);
             ASSERT_GT(chosen.count, 0);
-            LightSampler<double> const sampler = light_sampler(tiles.view, morning, limits.eye_pixels, V2(6, 4));
+            LightSampler<double> const sampler = light_sampler(tiles.view, sun_of_tiles, limits.eye_pixels, V2(6, 4));
             double price = 0.0, weight = 0.0;
             std::vector<double> sum(4), worst(4);
             std::vector<int> count(4);
@@ -321,7 +179,7 @@ TEST(ChooseMapsParts, ItsFiguresAreThoseOfTheMapsDrawn) {
 TEST(ChooseMapsParts, ManyTilesAreHeldByFewMapsWhole) {
     for (bool const flat : {false, true})
         for (int const maps : {1, 2, 4}) {
-            Tiles const tiles = hills(flat);
+            FewTiles const tiles = hills(flat);
             for (bool const with_samples : {false, true}) {
                 auto const chosen =
                     tiles.chosen(limits_of(maps), with_samples ? middles(tiles) : std::vector<SurfacePoint<double>>{});
@@ -339,7 +197,7 @@ TEST(ChooseMapsParts, ManyTilesAreHeldByFewMapsWhole) {
 }
 
 TEST(ChooseMapsParts, CastersUpToTheLightAndReceiversDownToTheLastAreBetweenItsEnds) {
-    Tiles tiles(view_of(false), 5, 4);
+    FewTiles tiles(view_of_tiles(false), 5, 4);
     tiles.see(7, 20.0, 30.0);
     for (ClipSpace const clip : {gl_clip, vulkan_clip, reversed(d3d_clip)}) {
         MapLimits<double> limits = limits_of(1);
@@ -355,7 +213,7 @@ TEST(ChooseMapsParts, CastersUpToTheLightAndReceiversDownToTheLastAreBetweenItsE
                         test::ndc(canonical_from_clip<double>(clip) * chosen.at[0].map.clip_from_world, point);
                     deepest = std::fmax(deepest, at.z);
                     EXPECT_GE(at.z, -1.0);
-                    V3 const caster = point - morning.direction * 60.0;
+                    V3 const caster = point - sun_of_tiles.direction * 60.0;
                     EXPECT_TRUE(laws::holds(chosen.at[0].map.clip_from_world, clip, caster, -1e-9));
                 }
         // No receiver is beyond its end, and a thousandth of their range is all that is left.
@@ -364,36 +222,14 @@ TEST(ChooseMapsParts, CastersUpToTheLightAndReceiversDownToTheLastAreBetweenItsE
     }
 }
 
-TEST(ChooseMapsParts, ADoorIsShutForWhatIsNoSunAndNoPicture) {
-    auto const door = [](Light<double> const& light, V2 const& pixels, double margin = 2.0) {
-        MapLimits<double> limits;
-        limits.eye_pixels = pixels;
-        limits.margin_texels = margin;
-        return detail::door_of_choice(view_of(false), light, everywhere, limits);
-    };
-    V2 const picture(9, 5);
-    EXPECT_FALSE(door(morning, picture).stop);
-    EXPECT_FALSE(door(morning, picture).faults.any());
-    EXPECT_FALSE(door(morning, V2(1e-3, 1e-3)).stop);
-    Light<double> const lamp = spot(V3(0, 9, 0), V3(0, -1, 0), 0.5, 30.0);
-    for (auto const& shut :
-         {door(lamp, picture), door(morning, V2(0, 5)), door(morning, V2(9, 0)), door(morning, V2(-9, 5)),
-          door(morning, V2(9, -5)), door(morning, V2(test::nan_, 5)), door(morning, V2(9, test::inf))}) {
-        EXPECT_TRUE(shut.stop);
-        EXPECT_TRUE(shut.faults.has(Fault::clamped_option));
-    }
-    EXPECT_TRUE(door(morning, picture, test::nan_).stop);
-    EXPECT_FALSE(door(morning, picture, test::nan_).faults.has(Fault::clamped_option));
-}
-
 // So that depths are not spent on what lies beyond.
 TEST(ChooseMapsParts, TheMapEndsALittleBehindTheLastReceiver) {
     for (bool const flat : {false, true}) {
-        Tiles tiles(view_of(flat), 5, 4);
+        FewTiles tiles(view_of_tiles(flat), 5, 4);
         tiles.see(7, 20.0, 30.0);
         double first = 1e9, last = -1e9;
         Aabb<double> casters;
-        V3 const eye = tiles.view.pose.position, along = glm::normalize(morning.direction);
+        V3 const eye = tiles.view.pose.position, along = glm::normalize(sun_of_tiles.direction);
         for (double const u : {0.0, 1.0})
             for (double const v : {0.0, 1.0})
                 for (double const depth : {20.0 * (1.0 - 1e-5), 30.0 * (1.0 + 1e-5)}) {
@@ -404,8 +240,8 @@ TEST(ChooseMapsParts, TheMapEndsALittleBehindTheLastReceiver) {
                 }
         MapLimits<double> limits = limits_of(1);
         limits.clip = gl_zero_to_one_clip;
-        auto const chosen =
-            choose_maps<double>(tiles.view, morning, casters, nullptr, 0, tiles.depths(), limits, search());
+        auto const chosen = choose_maps<double>(tiles.view, sun_of_tiles, casters, nullptr, 0, tiles.depths(), limits,
+                                                search_of_tiles());
         ASSERT_EQ(chosen.count, 1);
         glm::dmat4 const& m = chosen.at[0].map.clip_from_world;
         // Where depth is 1, metres beyond the eye: of a map of the sun it grows evenly along the light.
@@ -414,47 +250,4 @@ TEST(ChooseMapsParts, TheMapEndsALittleBehindTheLastReceiver) {
         EXPECT_GT(end, last);
         EXPECT_LT(end, last + 0.01 * (last - first));
     }
-}
-
-TEST(ChooseMapsParts, TilesOfWhichADepthIsNoNumberAreNone) {
-    for (bool const flat : {false, true}) {
-        Tiles const tiles = hills(flat);
-        auto const samples = middles(tiles);
-        auto const clean = tiles.chosen(limits_of(2), samples);
-        double const inf = test::inf, nan = test::nan_;
-        double const odd[][2] = {{-inf, 12.0}, {10.0, inf}, {-inf, inf}, {nan, 12.0}, {10.0, nan}, {-9.0, -5.0}};
-        for (auto const& depths : odd) {
-            Tiles spoilt = tiles;
-            spoilt.see(3, depths[0], depths[1]);
-            EXPECT_TRUE(laws::same(spoilt.chosen(limits_of(2), samples), clean)) << depths[0] << ' ' << depths[1];
-        }
-    }
-}
-
-TEST(ChooseMapsParts, BoxesBeyondTheLastOrWithoutAnEndAreNone) {
-    ViewVolume<double> const view = view_of(false);
-    V3 const middle = point_at(view, 0.0, 0.0, 30.0);
-    Aabb<double> const small{middle - 4.0, middle + 4.0};
-    auto const of = [&](std::vector<Aabb<double>> const& boxes, int count) {
-        return choose_maps(view, morning, everywhere, boxes.data(), count, limits_of(2), search());
-    };
-    auto const clean = of({small}, 1);
-    ASSERT_GT(clean.count, 0);
-    EXPECT_TRUE(laws::same(of({small, everywhere}, 1), clean)) << "there are no more";
-    Aabb<double> endless = small, beginningless = small;
-    endless.hi.x = test::inf;
-    beginningless.lo.y = -test::inf;
-    EXPECT_TRUE(laws::same(of({endless, small, beginningless}, 3), clean));
-}
-
-TEST(ChooseMapsParts, WhatTheDoorHasMendedIsSaid) {
-    Tiles tiles = hills(false);
-    tiles.view.z_far = test::inf;
-    auto const chosen = tiles.chosen(limits_of(2), middles(tiles));
-    EXPECT_GT(chosen.count, 0);
-    EXPECT_TRUE(chosen.faults.has(Fault::far_clamped));
-    Aabb<double> const box{V3(-50, 0, -50), V3(50, 1, 50)};
-    auto const of_box = choose_maps(tiles.view, morning, everywhere, &box, 1, limits_of(9), search());
-    EXPECT_TRUE(of_box.faults.has(Fault::far_clamped));
-    EXPECT_TRUE(of_box.faults.has(Fault::count_clamped));
 }
