@@ -321,6 +321,10 @@ TEST(QuadSettle, AllPiecesAreLookedAtAsLongAsThereIsRoom) {
     Strips none_in_the_last({512, 512, 512, 0});
     detail::take_pieces(*none_in_the_last.work, none_in_the_last.stack, none_in_the_last.cover());
     EXPECT_EQ(none_in_the_last.work->piece_count, rims + room);
+    // As much as that rounding up makes of it, before the last part's rim is taken.
+    Strips odd({511, 511, 513, 0});
+    detail::take_pieces(*odd.work, odd.stack, odd.cover());
+    EXPECT_EQ(odd.work->piece_count, rims + room);
 }
 
 TEST(QuadSettle, AsManyMapsSamplesAndPiecesAsThereIsRoomForAreSettled) {
