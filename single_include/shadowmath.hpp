@@ -9806,11 +9806,13 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
     constexpr int at_rim = quad_directions * max_chosen_maps, even = max_settling_pieces - at_rim;
     Supports<T> const around = no_supports(SampleFrame<T>{});
     int const stride = (all + even - 1) / even;
+    int room = even;  // up to the rims of the parts still to come
     stack.for_each_part([&](ViewPart<T> const& part) {
         std::array<T, quad_directions> reach;
         reach.fill(std::numeric_limits<T>::lowest());
         auto const rim = static_cast<unsigned>(work.piece_count);
         work.piece_count += quad_directions;
+        room += quad_directions;
         for (unsigned d = 0; d < quad_directions; ++d) work.piece[rim + d].count = 0;
         int seen = 0;
         cover(part, [&](Vec3<T> const* points, int count) {
@@ -9820,7 +9822,7 @@ inline void take_pieces(MapSearch<T>& work, QuadStack<T> const& stack, Cover con
                 reach[d] = farthest;
                 put(rim + d, points, count);
             }
-            if (seen++ % stride == 0 && work.piece_count < max_settling_pieces)
+            if (seen++ % stride == 0 && work.piece_count < room)
                 put(static_cast<unsigned>(work.piece_count++), points, count);
         });
     });
