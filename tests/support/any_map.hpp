@@ -126,13 +126,14 @@ rc::Gen<ShadowMap<T>> nasty_map() {
     });
 }
 
-// The world point that the map has at `texture`: u, v and stored depth.
+// The world point that the map has at `texture`: u, v and stored depth; the origin if it has none.
 template <class T>
 Vec3<T> point_at_texture(ShadowMap<T> const& map, Vec3<T> const& texture) {
     using L = long double;
     Mat4<L> const texture_from = texture_from_clip<L>(map.clip) * Mat4<L>(map.clip_from_world);
+    if (glm::determinant(texture_from) == L(0)) return Vec3<T>(T(0));
     Vec4<L> const world = glm::inverse(texture_from) * Vec4<L>(Vec3<L>(texture), L(1));
-    return Vec3<T>(Vec3<L>(world) / world.w);
+    return world.w == L(0) ? Vec3<T>(T(0)) : Vec3<T>(Vec3<L>(world) / world.w);
 }
 
 // A point well inside the map.
