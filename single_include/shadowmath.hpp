@@ -2984,11 +2984,10 @@ template <class T>
                       "fit_slice_boxes_of needs views, and room for their maps");
     SHADOWMATH_ASSERT(splits >= 1 && splits <= max_splits, "fit_slice_boxes_of makes one to max_splits maps a view");
     auto const weight = detail::order_of(lambda), free = detail::order_of(border);
-    // What fit_slice_boxes asks of the light's axes.
-    bool const in_reach = detail::largest_of(basis.x) < T(2) && detail::largest_of(basis.y) < T(2) &&
-                          detail::largest_of(basis.depth) < T(2) && all_finite(basis.x) && all_finite(basis.y) &&
-                          all_finite(basis.depth);
-    bool const fast = splits == 4 && in_reach && weight > 0 && weight <= detail::order_of(T(1)) &&
+    detail::BeyondReach<T> beyond;
+    for (Vec3<T> const* axis : {&basis.x, &basis.y, &basis.depth})
+        beyond.look_at_parts(detail::Lanes<T>::of(axis->x, axis->y, axis->z, T(0)));
+    bool const fast = splits == 4 && !beyond.any() && weight > 0 && weight <= detail::order_of(T(1)) &&
                       free >= detail::order_of(T(0)) && free <= detail::order_of(T(0.49));
     detail::MapInLanes<T> const map = detail::map_in_lanes(clip, fast ? T(2) - T(4) * border : T(2));
     int fitted = 0;
@@ -3380,6 +3379,13 @@ namespace shadowmath {
 inline namespace v0 {
 namespace detail {
 
+// A quotient may overflow where w is far below the rest; the largest number still bounds it.
+template <class T>
+[[nodiscard]] inline Vec3<T> within_numbers(Vec3<T> const& ndc) noexcept {
+    Vec3<T> const largest(std::numeric_limits<T>::max());
+    return glm::clamp(ndc, -largest, largest);
+}
+
 template <class T>
 [[nodiscard]] inline Aabb<T> bounds_of_body(Mat4<T> const& clip_from_world, std::array<Vec3<T>, 8> const& corners,
                                             T w_min) noexcept {
@@ -3406,12 +3412,9 @@ template <class T>
     }
     constexpr T tiny = T(8) * std::numeric_limits<T>::min();
     T const least = glm::max(floor > T(0) ? floor : std::numeric_limits<T>::epsilon() * largest_w, tiny);
-    T const largest = std::numeric_limits<T>::max();
     Aabb<T> bounds;
-    auto const add = [&bounds, largest](Vec4<T> const& p, T w) {
-        // A quotient may overflow where w is far below the rest; the largest number still bounds it.
-        Vec3<T> const ndc(p.x / w, p.y / w, p.z / w);
-        bounds = merge(bounds, glm::clamp(ndc, Vec3<T>(-largest), Vec3<T>(largest)));
+    auto const add = [&bounds](Vec4<T> const& p, T w) {
+        bounds = merge(bounds, within_numbers(Vec3<T>(p.x / w, p.y / w, p.z / w)));
     };
     for (unsigned i = 0; i < 8; ++i) {
         T const above = point[i].w - least * share[i];
@@ -3462,15 +3465,14 @@ struct BoundsInBlocks {
         lo[r][i] = less(least + away, lo[r][i]);
         hi[r][i] = more(most - away, hi[r][i]);
     }
-    // Numbers that are too large for the type are the largest.
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
         for (int r = 0; r < 3; ++r) {
             T least = none, most = -none;
             for (int i = 0; i < n; ++i) least = less(least, lo[r][i]), most = more(most, hi[r][i]);
-            all.lo[r] = more(least, -none), all.hi[r] = less(most, none);
+            all.lo[r] = least, all.hi[r] = most;
         }
-        return all;
+        return {within_numbers(all.lo), within_numbers(all.hi)};
     }
 };
 
@@ -3509,15 +3511,14 @@ struct BoundsInLanes {
         lo[r] = least(where_at_most(lacking, zero, ndc, all_four(none)), lo[r]);
         hi[r] = largest(where_at_most(lacking, zero, ndc, all_four(-none)), hi[r]);
     }
-    // Numbers that are too large for the type are the largest.
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
         for (int r = 0; r < 3; ++r)
             for (int k = 0; k < 4; ++k) {
-                all.lo[r] = glm::min(all.lo[r], glm::max(lo[r][k], -none));
-                all.hi[r] = glm::max(all.hi[r], glm::min(hi[r][k], none));
+                all.lo[r] = glm::min(all.lo[r], lo[r][k]);
+                all.hi[r] = glm::max(all.hi[r], hi[r][k]);
             }
-        return all;
+        return {within_numbers(all.lo), within_numbers(all.hi)};
     }
 };
 
@@ -3601,10 +3602,8 @@ struct BoundsOfBoxes {
             }
         }
         Aabb<T> const merged = so_far.merged();
-        Vec3<T> const offset(matrix[3]), most_of_all(so_far.none);
-        auto const ndc = [&](Vec3<T> const& p) {
-            return glm::clamp((p + offset) / matrix[3][3], -most_of_all, most_of_all);
-        };
+        Vec3<T> const offset(matrix[3]);
+        auto const ndc = [&](Vec3<T> const& p) { return within_numbers((p + offset) / matrix[3][3]); };
         if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{ndc(merged.lo), ndc(merged.hi)});
     }
 

@@ -18,6 +18,13 @@ namespace shadowmath {
 inline namespace v0 {
 namespace detail {
 
+// A quotient may overflow where w is far below the rest; the largest number still bounds it.
+template <class T>
+[[nodiscard]] inline Vec3<T> within_numbers(Vec3<T> const& ndc) noexcept {
+    Vec3<T> const largest(std::numeric_limits<T>::max());
+    return glm::clamp(ndc, -largest, largest);
+}
+
 template <class T>
 [[nodiscard]] inline Aabb<T> bounds_of_body(Mat4<T> const& clip_from_world, std::array<Vec3<T>, 8> const& corners,
                                             T w_min) noexcept {
@@ -44,12 +51,9 @@ template <class T>
     }
     constexpr T tiny = T(8) * std::numeric_limits<T>::min();
     T const least = glm::max(floor > T(0) ? floor : std::numeric_limits<T>::epsilon() * largest_w, tiny);
-    T const largest = std::numeric_limits<T>::max();
     Aabb<T> bounds;
-    auto const add = [&bounds, largest](Vec4<T> const& p, T w) {
-        // A quotient may overflow where w is far below the rest; the largest number still bounds it.
-        Vec3<T> const ndc(p.x / w, p.y / w, p.z / w);
-        bounds = merge(bounds, glm::clamp(ndc, Vec3<T>(-largest), Vec3<T>(largest)));
+    auto const add = [&bounds](Vec4<T> const& p, T w) {
+        bounds = merge(bounds, within_numbers(Vec3<T>(p.x / w, p.y / w, p.z / w)));
     };
     for (unsigned i = 0; i < 8; ++i) {
         T const above = point[i].w - least * share[i];

@@ -41,15 +41,14 @@ struct BoundsInBlocks {
         lo[r][i] = less(least + away, lo[r][i]);
         hi[r][i] = more(most - away, hi[r][i]);
     }
-    // Numbers that are too large for the type are the largest.
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
         for (int r = 0; r < 3; ++r) {
             T least = none, most = -none;
             for (int i = 0; i < n; ++i) least = less(least, lo[r][i]), most = more(most, hi[r][i]);
-            all.lo[r] = more(least, -none), all.hi[r] = less(most, none);
+            all.lo[r] = least, all.hi[r] = most;
         }
-        return all;
+        return {within_numbers(all.lo), within_numbers(all.hi)};
     }
 };
 
@@ -88,15 +87,14 @@ struct BoundsInLanes {
         lo[r] = least(where_at_most(lacking, zero, ndc, all_four(none)), lo[r]);
         hi[r] = largest(where_at_most(lacking, zero, ndc, all_four(-none)), hi[r]);
     }
-    // Numbers that are too large for the type are the largest.
     [[nodiscard]] Aabb<T> merged() const noexcept {
         Aabb<T> all;
         for (int r = 0; r < 3; ++r)
             for (int k = 0; k < 4; ++k) {
-                all.lo[r] = glm::min(all.lo[r], glm::max(lo[r][k], -none));
-                all.hi[r] = glm::max(all.hi[r], glm::min(hi[r][k], none));
+                all.lo[r] = glm::min(all.lo[r], lo[r][k]);
+                all.hi[r] = glm::max(all.hi[r], hi[r][k]);
             }
-        return all;
+        return {within_numbers(all.lo), within_numbers(all.hi)};
     }
 };
 
@@ -180,10 +178,8 @@ struct BoundsOfBoxes {
             }
         }
         Aabb<T> const merged = so_far.merged();
-        Vec3<T> const offset(matrix[3]), most_of_all(so_far.none);
-        auto const ndc = [&](Vec3<T> const& p) {
-            return glm::clamp((p + offset) / matrix[3][3], -most_of_all, most_of_all);
-        };
+        Vec3<T> const offset(matrix[3]);
+        auto const ndc = [&](Vec3<T> const& p) { return within_numbers((p + offset) / matrix[3][3]); };
         if (!is_empty(merged)) bounds = merge(bounds, Aabb<T>{ndc(merged.lo), ndc(merged.hi)});
     }
 

@@ -229,11 +229,10 @@ template <class T>
                       "fit_slice_boxes_of needs views, and room for their maps");
     SHADOWMATH_ASSERT(splits >= 1 && splits <= max_splits, "fit_slice_boxes_of makes one to max_splits maps a view");
     auto const weight = detail::order_of(lambda), free = detail::order_of(border);
-    // What fit_slice_boxes asks of the light's axes.
-    bool const in_reach = detail::largest_of(basis.x) < T(2) && detail::largest_of(basis.y) < T(2) &&
-                          detail::largest_of(basis.depth) < T(2) && all_finite(basis.x) && all_finite(basis.y) &&
-                          all_finite(basis.depth);
-    bool const fast = splits == 4 && in_reach && weight > 0 && weight <= detail::order_of(T(1)) &&
+    detail::BeyondReach<T> beyond;
+    for (Vec3<T> const* axis : {&basis.x, &basis.y, &basis.depth})
+        beyond.look_at_parts(detail::Lanes<T>::of(axis->x, axis->y, axis->z, T(0)));
+    bool const fast = splits == 4 && !beyond.any() && weight > 0 && weight <= detail::order_of(T(1)) &&
                       free >= detail::order_of(T(0)) && free <= detail::order_of(T(0.49));
     detail::MapInLanes<T> const map = detail::map_in_lanes(clip, fast ? T(2) - T(4) * border : T(2));
     int fitted = 0;

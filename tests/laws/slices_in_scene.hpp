@@ -27,6 +27,18 @@ template <class T>
            (reach + std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z));
 }
 
+// A box and a slice where the eye is the origin, in long double: differences of places are taken once, and exactly.
+template <class T>
+[[nodiscard]] Aabb<long double> about_eye(ViewVolume<T> const& view, Aabb<T> const& box) {
+    Vec3<long double> const eye(view.pose.position);
+    return {Vec3<long double>(box.lo) - eye, Vec3<long double>(box.hi) - eye};
+}
+template <class T>
+[[nodiscard]] ViewVolume<long double> about_eye(ViewVolume<T> view, SliceRange<T> const& range) {
+    view.pose.position = Vec3<T>(T(0));
+    return exact_view(slice(view, range));
+}
+
 // By clipping polygons in long double, every plane `slack` metres farther out.
 template <class T>
 [[nodiscard]] Aabb<long double> clipped_bounds(ViewVolume<T> const& part, LightBasis<T> const& basis,

@@ -74,13 +74,10 @@ struct WarpedEdges : ::testing::Test {
         Lanes<T> const lo = least_of(ends.lo), hi = largest_of(ends.hi), deepest = ends.deepest(four_at(first));
 
         int met = 0;
-        ViewVolume<T> here = view;
-        here.pose.position = Vec3<T>(T(0));
-        Aabb<Real> const box{Vec3<Real>(scene.lo) - Vec3<Real>(view.pose.position),
-                             Vec3<Real>(scene.hi) - Vec3<Real>(view.pose.position)};
+        Aabb<Real> const box = laws::about_eye(view, scene);
         Real const rounding = laws::scene_rounding(view, view.z_far);
         for (int i = 0; i < 4; ++i) {
-            ViewVolume<Real> const part = laws::exact_view(slice(here, slice_range(splits, i)));
+            ViewVolume<Real> const part = laws::about_eye(view, slice_range(splits, i));
             auto const of_slack = [&](Real slack) {
                 return behind(part, basis, box, slack, slope[i], offset[i], first[i]);
             };
